@@ -15,7 +15,7 @@ namespace {
 using Neighbour = SearchTree::Neighbour;
 
 constexpr std::size_t lanes = 8;
-constexpr std::size_t leaf_points = 16;
+constexpr std::size_t leaf_points = 32;
 constexpr float farthest = std::numeric_limits<float>::max();
 
 /// Eight points side by side, so that one instruction treats all of them. Unused places lie at

@@ -1,0 +1,32 @@
+#pragma once
+/// The sub-commands of `plumb`, one file each. A callback throws plumb::Error on a wrong input.
+
+#include <filesystem>
+#include <vector>
+
+#include "plumb/plugin/registry.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plumb::command {
+
+void add_run(CLI::App& app);
+void add_check(CLI::App& app);
+void add_resolve(CLI::App& app);
+void add_graph(CLI::App& app);
+void add_list(CLI::App& app);
+void add_inspect(CLI::App& app);
+void add_doctor(CLI::App& app);
+void add_schema(CLI::App& app);
+void add_simulate(CLI::App& app);
+void add_evaluate(CLI::App& app);
+
+/// `--plugin-path`, given before the sub-command; filled while the command line is read.
+extern std::vector<std::filesystem::path> plugin_path;
+
+/// The steps of this installation and of plugin_path.
+Registry installed_steps();
+
+}  // namespace plumb::command
