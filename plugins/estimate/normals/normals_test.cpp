@@ -1,0 +1,117 @@
+#include "normals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "plumb/plugin/testing.hpp"
+
+namespace plumb {
+namespace {
+
+/// Runs the bodies in the order given and in four threads at once.
+struct ThreadedContext : TestContext {
+  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
+    std::vector<std::jthread> threads;
+    for (std::size_t t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        for (std::size_t k = n - t; k-- > 0 && k < n;) {
+          if (k % 4 == t) body(k);
+        }
+      });
+  }
+};
+
+Cloud plane(const Eigen::Vector3f& normal, std::size_t count, float noise, std::uint64_t seed) {
+  Random random(seed);
+  const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
+  Cloud cloud;
+  for (std::size_t k = 0; k < count; ++k)
+    cloud.add(u * static_cast<float>(random.uniform() * 4) +
+              v * static_cast<float>(random.uniform() * 4) +
+              normal * noise * static_cast<float>(random.uniform() - 0.5));
+  return cloud;
+}
+
+std::size_t estimate(Cloud& cloud, const Neighbourhood& of, const Eigen::Vector3f& origin) {
+  TestContext context;
+  return estimate_normals(cloud, SearchTree(cloud), of, [&](std::size_t) { return origin; }, context);
+}
+
+TEST(Normals, AreThoseOfAPlane) {
+  const Eigen::Vector3f truth = Eigen::Vector3f(1, 2, -3).normalized();
+  Cloud cloud = plane(truth, 500, 0, 1);
+  EXPECT_EQ(estimate(cloud, {1.0, {}}, 10 * truth), 0u);
+  for (std::size_t k = 0; k < cloud.size(); ++k)
+    EXPECT_LT((cloud.normal(k) - truth).norm(), 1e-5) << k;
+}
+
+TEST(Normals, PointToTheSensor) {
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  Cloud above = plane(up, 300, 0.01f, 2), below = above;
+  estimate(above, {{}, 20}, {1, 1, 5});
+  estimate(below, {{}, 20}, {1, 1, -5});
+  for (std::size_t k = 0; k < above.size(); ++k) {
+    EXPECT_GT(above.nz[k], 0.9f);
+    EXPECT_EQ(below.normal(k), -above.normal(k));
+  }
+}
+
+TEST(Normals, OfASphereArePointingAlongItsRadius) {
+  Random random(3);
+  Cloud cloud;
+  for (int k = 0; k < 4000; ++k) {
+    const float z = static_cast<float>(2 * random.uniform() - 1);
+    const float phi = static_cast<float>(6.2831853 * random.uniform()), r = std::sqrt(1 - z * z);
+    cloud.add(5 * Eigen::Vector3f(r * std::cos(phi), r * std::sin(phi), z));
+  }
+  estimate(cloud, {0.8, 30}, Eigen::Vector3f::Zero());
+  for (std::size_t k = 0; k < cloud.size(); ++k)
+    EXPECT_LT(cloud.normal(k).dot(cloud.point(k)) / 5, -0.99f) << k;
+}
+
+TEST(Normals, AreZeroForLonelyPointsAndForALine) {
+  Cloud cloud;
+  cloud.add({100, 0, 0});
+  cloud.add({100, 0.1f, 0});
+  for (int k = 0; k < 50; ++k) cloud.add({0, 0.1f * static_cast<float>(k), 0});
+  cloud.add({std::numeric_limits<float>::quiet_NaN(), 0, 0});
+  EXPECT_EQ(estimate(cloud, {0.5, 10}, {0, 0, 10}), 53u);
+  for (std::size_t k = 0; k < cloud.size(); ++k) EXPECT_TRUE(cloud.normal(k).isZero());
+}
+
+TEST(Normals, TakeAllWithinTheRadiusWhenTheNumberIsOpen) {
+  // A dense horizontal patch beside a sparse wall: few nearest see the patch alone, a wide radius sees both.
+  Cloud few = plane(Eigen::Vector3f::UnitZ(), 800, 0, 4);
+  for (int k = 0; k < 400; ++k)
+    few.add({0, 0.2f * static_cast<float>(k % 20), 0.2f * static_cast<float>(k / 20)});
+  Cloud all = few;
+  estimate(few, {2.0, 10}, {1, 1, 9});
+  estimate(all, {2.0, {}}, {1, 1, 9});
+  EXPECT_NEAR(few.nz[0], 1, 1e-3);
+  std::size_t differ = 0;
+  for (std::size_t k = 0; k < few.size(); ++k) differ += few.normal(k) != all.normal(k);
+  EXPECT_GT(differ, few.size() / 4);
+}
+
+TEST(Normals, AreTheSameForOneAndForFourThreads) {
+  Cloud one = plane(Eigen::Vector3f(1, 1, 1).normalized(), 5000, 0.05f, 5), four = one;
+  const SearchTree tree(one);
+  const auto origin = [](std::size_t) { return Eigen::Vector3f(9, 9, 9); };
+  TestContext alone;
+  ThreadedContext together;
+  estimate_normals(one, tree, {0.5, 20}, origin, alone);
+  estimate_normals(four, tree, {0.5, 20}, origin, together);
+  EXPECT_EQ(one.nx, four.nx);
+  EXPECT_EQ(one.ny, four.ny);
+  EXPECT_EQ(one.nz, four.nz);
+}
+
+TEST(Normals, OfAnEmptyCloudAreEmpty) {
+  Cloud cloud;
+  EXPECT_EQ(estimate(cloud, {1.0, 30}, {0, 0, 0}), 0u);
+  EXPECT_TRUE(cloud.nx.empty());
+}
+
+}  // namespace
+}  // namespace plumb
