@@ -1,0 +1,35 @@
+#include "plumb/plugin/module.hpp"
+#include "sequential.hpp"
+
+namespace plumb {
+namespace {
+
+struct SequentialEdges : WholeStep {
+  struct In {
+    Each<Range> ranges;
+  };
+  struct Out {
+    Edges edges;
+  };
+  struct Params {};
+
+  static void describe(Declaration<SequentialEdges>& is) {
+    is.name("edges.sequential").version(1).summary("Joins every segment with the next one.");
+    is.source("[Tang2024] 2.3.1");
+    is.input("ranges", &In::ranges, "the segments' frames and places, as they were cut");
+    is.output("edges", &Out::edges, "one edge less than there are segments");
+  }
+
+  Out run(const In& in, const Params&, Context& context) const {
+    std::vector<Eigen::Vector3d> positions;
+    for (std::size_t k = 0; k < in.ranges.size(); ++k)
+      positions.push_back(in.ranges.open(k)->T_world_segment.translation);
+    if (positions.size() < 2) context.warn("there are fewer than two segments: nothing to join");
+    return {sequential_edges(positions)};
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::SequentialEdges)
