@@ -5,6 +5,11 @@
 namespace plumb {
 namespace {
 
+struct CountSink {
+  std::size_t size = 0;
+  void put(const void*, std::size_t n) { size += n; }
+};
+
 template <class T>
 Type make(const char* name, int version, Grain grain) {
   return {name, version, grain,
@@ -12,6 +17,11 @@ Type make(const char* name, int version, Grain grain) {
           [](const void* value) { return to_bytes(*static_cast<const T*>(value)); },
           [](std::string_view bytes) -> std::shared_ptr<const void> {
             return std::make_shared<const T>(from_bytes<T>(bytes));
+          },
+          [](const void* value) {
+            OutArchive<CountSink> archive;
+            archive(*static_cast<const T*>(value));
+            return archive.size;
           }};
 }
 

@@ -20,6 +20,7 @@ struct Type {
   Hash128 (*hash)(const void* value);
   std::string (*write)(const void* value);
   std::shared_ptr<const void> (*read)(std::string_view bytes);
+  std::size_t (*bytes)(const void* value);  ///< how much memory it holds, about
 };
 
 /// The type of T, for every T of section 3 of the design: type_of<Segment>().

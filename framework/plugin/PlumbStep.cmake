@@ -16,7 +16,7 @@ function(plumb_add_step step)
   # The objects are compiled once; the module and the test both link them.
   add_library(${id}_objects OBJECT ${arg_SOURCES})
   target_link_libraries(${id}_objects PUBLIC plumb ${arg_LIBRARIES})
-  target_compile_options(${id}_objects PRIVATE -Wall -Wextra -Wshadow -Werror)
+  target_compile_options(${id}_objects PRIVATE -Wall -Wextra -Wshadow -Werror -Wno-restrict)
 
   add_library(step_${id} MODULE $<TARGET_OBJECTS:${id}_objects>)
   target_link_libraries(step_${id} PRIVATE plumb ${arg_LIBRARIES} -Wl,--no-undefined)

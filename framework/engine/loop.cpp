@@ -1,0 +1,35 @@
+#include "plumb/engine/loop.hpp"
+
+#include <algorithm>
+
+#include "plumb/plugin/unit.hpp"
+
+namespace plumb {
+
+bool LoopJudge::holds(std::size_t c) const {
+  const PlannedCondition& condition = repeat_.conditions[c];
+  const double now = values_.back()[c];
+  if (condition.below) return now < *condition.below;
+  if (values_.size() < 2) return false;
+  const double before = values_[values_.size() - 2][c];
+  return before - now < *condition.falls_by_less_than * std::abs(before);
+}
+
+std::optional<std::string> LoopJudge::after_pass(std::vector<double> values) {
+  values_.push_back(std::move(values));
+  if (!repeat_.conditions.empty() && passes() >= std::max(2, repeat_.at_least)) {
+    std::string held;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < repeat_.conditions.size(); ++c) {
+      if (!holds(c)) continue;
+      ++count;
+      held += (held.empty() ? "" : " and ") + repeat_.conditions[c].text + " (" +
+              shortest(values_[values_.size() - 2][c]) + " -> " + shortest(values_.back()[c]) + ")";
+    }
+    if (repeat_.all ? count == repeat_.conditions.size() : count > 0) return held;
+  }
+  if (passes() < repeat_.at_most) return std::nullopt;
+  return repeat_.conditions.empty() ? "all passes are done" : "at_most is reached, until does not hold";
+}
+
+}  // namespace plumb

@@ -1,0 +1,50 @@
+#pragma once
+/// Runs a checked pipeline.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/engine/bookkeeping.hpp"
+#include "plumb/pipeline/plan.hpp"
+#include "plumb/plugin/registry.hpp"
+
+namespace plumb {
+
+struct RunOptions {
+  unsigned threads = 0;                         ///< 0: as many as the machine has
+  std::size_t memo_bytes = std::size_t{1} << 30; ///< how much is remembered of what may be asked for again
+};
+
+/// How a repeat ended.
+struct LoopEnd {
+  std::string path;
+  int passes = 0;
+  std::string why;
+};
+
+/// A file that a step made.
+struct MadeDocument {
+  std::string path;  ///< of the step
+  std::shared_ptr<const Document> document;
+};
+
+struct MadeMetrics {
+  std::string path;
+  std::shared_ptr<const Metrics> metrics;
+};
+
+struct RunResult {
+  std::vector<MadeDocument> documents;
+  std::vector<MadeMetrics> metrics;    ///< every Metrics output; of a repeat its last pass
+  std::vector<LoopEnd> loops;
+  std::vector<std::string> warnings, counts;
+  std::vector<StepTime> times;
+  double seconds = 0;                  ///< wall clock
+  std::size_t peak_bytes = 0;          ///< of resident memory, whole process
+};
+
+/// Runs all steps. Throws Error that names step and item; nothing is written to disk here.
+RunResult run_plan(const Plan& plan, const Registry& registry, const RunOptions& options, Observer& observer);
+
+}  // namespace plumb
