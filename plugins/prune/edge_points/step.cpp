@@ -1,0 +1,34 @@
+#include "inner.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct EdgePoints : EdgeStep {
+  struct In {
+    One<Matches> matches;
+  };
+  struct Out {
+    Matches matches;
+  };
+  struct Params {};
+
+  static void describe(Declaration<EdgePoints>& is) {
+    is.name("prune.edge_points").version(1);
+    is.summary("Drops pairs with a point at the border of its cloud.");
+    is.source("[Tang2024] 2.3.2, [Xiong2018]");
+    is.input("matches", &In::matches, "pairs with border marks");
+    is.output("matches", &Out::matches, "those with both points inside");
+  }
+
+  Out run(const In& in, const Params&, Context& context) const {
+    const auto kept = inner(*in.matches);
+    context.count("pairs at a border dropped", in.matches->size() - kept.size());
+    return {select(*in.matches, kept)};
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::EdgePoints)
