@@ -71,7 +71,9 @@ class StepRun {
   StepRun& set(const std::string& parameter, ParameterValue value) {
     const auto* description = step_->description().parameter(parameter);
     EXPECT_NE(description, nullptr) << "no parameter " << parameter;
-    if (description) EXPECT_EQ(fault_of(*description, value), "") << parameter;
+    if (description) {
+      EXPECT_EQ(fault_of(*description, value), "") << parameter;
+    }
     values_[parameter] = std::move(value);
     return *this;
   }
