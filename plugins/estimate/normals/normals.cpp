@@ -8,7 +8,7 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t block_points = 1024;  // fixed, so that blocks do not follow the threads
-constexpr double line_ratio = 1e-6;         // middle to largest eigenvalue: 1 mm of width on 1 m of length
+constexpr double line_ratio = 1e-6;  // middle to largest eigenvalue: 1 mm of width on 1 m of length
 
 /// Finds the neighbours of one point after another, in memory of its own.
 class Finder {
@@ -63,7 +63,8 @@ Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count) {
       xz - x * z / n, yz - y * z / n, zz - z * z / n;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
-  if (!(eigen.eigenvalues()[1] > line_ratio * eigen.eigenvalues()[2])) return Eigen::Vector3f::Zero();
+  if (!(eigen.eigenvalues()[1] > line_ratio * eigen.eigenvalues()[2]))
+    return Eigen::Vector3f::Zero();
   return eigen.eigenvectors().col(0).normalized().cast<float>();
 }
 

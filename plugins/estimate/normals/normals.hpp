@@ -19,17 +19,17 @@ struct Neighbourhood {
   std::optional<std::uint32_t> most;
 };
 
-/// Writes nx, ny, nz of `cloud`: unit normals that point to the half space of `origin(k)`, where the
-/// sensor stood when it saw point k [m]. A point with fewer than 3 neighbours, or whose neighbours
-/// lie on one line, gets the normal (0, 0, 0). `tree` holds the cloud's points. The result does not
-/// depend on the number of threads. Returns how many points have no normal.
+/// Writes nx, ny, nz of `cloud`: unit normals that point to the half space of `origin(k)`, where
+/// the sensor stood when it saw point k [m]. A point with fewer than 3 neighbours, or whose
+/// neighbours lie on one line, gets the normal (0, 0, 0). `tree` holds the cloud's points. The
+/// result does not depend on the number of threads. Returns how many points have no normal.
 std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbourhood& of,
                              const std::function<Eigen::Vector3f(std::size_t)>& origin,
                              Context& context);
 
 /// The unit normal of the plane that fits `points` best in the sense of least squares, up to sign;
-/// zero if there are fewer than 3 or they lie on one line. Coordinates should be small (taken from a
-/// point nearby), so that the sums keep their digits.
+/// zero if there are fewer than 3 or they lie on one line. Coordinates should be small (taken from
+/// a point nearby), so that the sums keep their digits.
 Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count);
 
 }  // namespace plumb

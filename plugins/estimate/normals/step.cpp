@@ -15,28 +15,35 @@ struct EstimateNormals : SegmentStep {
     std::optional<double> radius = 1.0;
     std::optional<std::uint32_t> neighbours = 30;
     std::string check() const {
-      return radius || neighbours ? "" : "'radius' and 'neighbours' are both none; give one of them";
+      return radius || neighbours ? ""
+                                  : "'radius' and 'neighbours' are both none; give one of them";
     }
   };
 
   static void describe(Declaration<EstimateNormals>& is) {
     is.name("estimate.normals").version(1);
-    is.summary("Gives every point the normal of its neighbourhood, turned to where the sensor stood.");
+    is.summary(
+        "Gives every point the normal of its neighbourhood, turned to where the sensor stood.");
     is.source("[Rusu2009] II.A; turned as in [Tang2024] 2.3.2");
     is.input("segment", &In::segment, "the cloud");
-    is.output("segment", &Out::segment, "the same points with normals; (0, 0, 0) where there is none");
-    is.param("radius", &Params::radius).unit("m").range(0.001, 100)
+    is.output("segment", &Out::segment,
+              "the same points with normals; (0, 0, 0) where there is none");
+    is.param("radius", &Params::radius)
+        .unit("m")
+        .range(0.001, 100)
         .doc("neighbours lie within this distance; none: however far");
-    is.param("neighbours", &Params::neighbours).range(3, 1000)
-        .doc("at most so many, the nearest, the point itself included; none: all within the radius");
+    is.param("neighbours", &Params::neighbours)
+        .range(3, 1000)
+        .doc(
+            "at most so many, the nearest, the point itself included; none: all within the radius");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment& segment = *in.segment;
     Cloud cloud = segment.cloud;
-    const std::size_t without =
-        estimate_normals(cloud, segment.tree(), {params.radius, params.neighbours},
-                         [&](std::size_t k) { return segment.origin(k); }, context);
+    const std::size_t without = estimate_normals(
+        cloud, segment.tree(), {params.radius, params.neighbours},
+        [&](std::size_t k) { return segment.origin(k); }, context);
     if (without > 0) context.count("points without a normal", without);
     return {segment.with(std::move(cloud), segment.frame)};
   }
