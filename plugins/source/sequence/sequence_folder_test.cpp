@@ -1,0 +1,201 @@
+#include "sequence_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+
+#include "plumb/data/error.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/plugin/testing.hpp"
+
+extern "C" const PlumbModule* plumb_module();
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A sequence folder of this test, removed at its end. Frame k has the points (k, 0, 0) and (k, 1,
+/// 0).
+struct Folder : testing::Test {
+  fs::path path = fs::temp_directory_path() / ("plumb_sequence_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path / "frames"); }
+  ~Folder() override { fs::remove_all(path); }
+
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path / name, std::ios::binary) << bytes;
+  }
+  static Cloud cloud_of(int k) {
+    Cloud cloud;
+    cloud.add({static_cast<float>(k), 0, 0});
+    cloud.add({static_cast<float>(k), 1, 0});
+    return cloud;
+  }
+  void frames(int n) const {
+    for (int k = 0; k < n; ++k)
+      write("frames/00" + std::to_string(k) + ".pcd", pcd_bytes(cloud_of(k)));
+  }
+  void odometry(int n, const std::string& name = "odometry.tum") const {
+    std::string text;
+    for (int k = 0; k < n; ++k)
+      text += std::to_string(k) + ".5 " + std::to_string(10 * k) +
+              " 0 0 0 0 0.70710678118654752 0.70710678118654752\n";
+    write(name, text);
+  }
+
+  struct Result {
+    Lazy<Frame> frames;
+    Trajectory trajectory;
+    TestContext context;
+    Frame frame(std::size_t k) { return frames.open(k, context); }
+  };
+  Result run(ParameterValues values = {}) const {
+    values.emplace("path", path.string());
+    const Step& step = *plumb_module()->steps[0];
+    PortOutput outputs[2];
+    Result result;
+    step.run(step.parameters(values).get(), {}, outputs, result.context);
+    result.frames.keys = outputs[0].lazy.keys;
+    result.frames.open = [open = outputs[0].lazy.open](std::size_t k, Context& context) {
+      return *open(k, context).template as<Frame>();
+    };
+    result.trajectory = *outputs[1].one.as<Trajectory>();
+    return result;
+  }
+  std::string refusal(ParameterValues values = {}) const {
+    try {
+      run(std::move(values));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+};
+
+TEST_F(Folder, ReadsFramesInOrderOfTheirNames) {
+  frames(3);
+  odometry(3);
+  auto sequence = run();
+  ASSERT_EQ(sequence.frames.keys.size(), 3u);
+  ASSERT_EQ(sequence.trajectory.size(), 3u);
+  EXPECT_EQ(sequence.trajectory.stamps[2], 2.5);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Frame frame = sequence.frame(k);
+    EXPECT_EQ(frame.index, k);
+    ASSERT_EQ(frame.cloud.size(), 2u);
+    EXPECT_EQ(frame.cloud.x[1], static_cast<float>(k));
+  }
+}
+
+TEST_F(Folder, FollowsAListInItsOwnOrderAndOutOfTheFolder) {
+  frames(3);
+  odometry(2);
+  fs::create_directories(path / "trip");
+  write("trip/frames.txt", "# back and out\n../frames/002.pcd\n\n  ../frames/000.pcd\r\n");
+  auto sequence =
+      run({{"path", (path / "trip").string()}, {"trajectory", (path / "odometry.tum").string()}});
+  ASSERT_EQ(sequence.frames.keys.size(), 2u);
+  EXPECT_EQ(sequence.frame(0).cloud.x[0], 2.0f);
+  EXPECT_EQ(sequence.frame(1).cloud.x[0], 0.0f);
+}
+
+TEST_F(Folder, ReadsPlyFramesToo) {
+  write("frames/0.ply", ply_bytes(cloud_of(7)));
+  write("frames/1.ply", ply_bytes(cloud_of(8)));
+  odometry(2);
+  EXPECT_EQ(run().frame(1).cloud.x[0], 8.0f);
+}
+
+TEST_F(Folder, BringsWorldCloudsBackToTheirFrames) {
+  frames(2);
+  odometry(2);
+  auto sequence = run({{"coordinates", std::string("world")}});
+  // Frame 1 stands at (10, 0, 0), turned by 90 degrees: its x axis points along the world's y.
+  const Frame frame = sequence.frame(1);
+  EXPECT_NEAR(frame.cloud.x[1], 1, 1e-6);
+  EXPECT_NEAR(frame.cloud.y[1], 9, 1e-6);
+  const Pose& pose = sequence.trajectory.T_world_frame[1];
+  EXPECT_LT((pose * frame.cloud.point(1).cast<double>() - Eigen::Vector3d(1, 1, 0)).norm(), 1e-6);
+}
+
+TEST_F(Folder, TurnsNormalsOfWorldCloudsWithoutMovingThem) {
+  Cloud cloud = cloud_of(0);
+  cloud.nx = {1, 0};
+  cloud.ny = {0, 1};
+  cloud.nz = {0, 0};
+  bring_to_frame(cloud, Pose(exp_rotation({0, 0, M_PI / 2}), {5, 6, 7}));
+  EXPECT_LT((cloud.normal(0) - Eigen::Vector3f(0, -1, 0)).norm(), 1e-6);
+  EXPECT_LT((cloud.normal(1) - Eigen::Vector3f(1, 0, 0)).norm(), 1e-6);
+}
+
+TEST_F(Folder, CountsPointsThatAreNoNumbers) {
+  frames(2);
+  Cloud cloud = cloud_of(1);
+  cloud.add({0, std::numeric_limits<float>::quiet_NaN(), 0});
+  cloud.add({std::numeric_limits<float>::infinity(), 0, 0});
+  write("frames/001.pcd", pcd_bytes(cloud));
+  odometry(2);
+  auto sequence = run();
+  EXPECT_EQ(sequence.frame(1).cloud.size(), 2u);
+  EXPECT_EQ(sequence.context.counts["points with a coordinate that is no number dropped"], 2u);
+}
+
+TEST_F(Folder, GivesAFrameAnotherKeyWhenItsFileOrItsUseChanges) {
+  frames(3);
+  odometry(3);
+  const auto before = run().frames.keys;
+  EXPECT_EQ(run().frames.keys, before);
+  EXPECT_NE(before[0], before[1]);
+  write("frames/001.pcd", pcd_bytes(Cloud{.x = {1},
+                                          .y = {2},
+                                          .z = {3},
+                                          .intensity = {},
+                                          .time = {},
+                                          .ring = {},
+                                          .nx = {},
+                                          .ny = {},
+                                          .nz = {}}));
+  const auto after = run().frames.keys;
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_NE(after[1], before[1]);
+  EXPECT_NE(run({{"coordinates", std::string("world")}}).frames.keys[0], before[0]);
+}
+
+TEST_F(Folder, IsRefusedWhenItIsMissingOrEmpty) {
+  odometry(2);
+  EXPECT_THAT(refusal({{"path", std::string("/no/such/folder")}}),
+              HasSubstr("/no/such/folder: there is no such folder"));
+  EXPECT_THAT(refusal({{"path", (path / "odometry.tum").string()}}), HasSubstr("is not a folder"));
+  EXPECT_THAT(refusal(), HasSubstr("has no frames"));
+  write("frames.txt", "# nothing\n");
+  EXPECT_THAT(refusal(), HasSubstr("lists no frame"));
+}
+
+TEST_F(Folder, IsRefusedWithoutOdometryOrWithAnotherNumberOfPoses) {
+  frames(3);
+  EXPECT_THAT(refusal(), HasSubstr("odometry.tum: cannot be opened"));
+  odometry(2);
+  EXPECT_THAT(refusal(),
+              HasSubstr("has 3 frames, but " + (path / "odometry.tum").string() + " has 2 poses"));
+  odometry(4);
+  EXPECT_THAT(refusal(), HasSubstr("has 4 poses"));
+}
+
+TEST_F(Folder, IsRefusedWithASingleFrame) {
+  frames(1);
+  odometry(1);
+  EXPECT_THAT(refusal(), HasSubstr("has 1 frame, but needs at least 2"));
+}
+
+TEST_F(Folder, IsRefusedWhenAListedFrameIsMissing) {
+  frames(1);
+  odometry(2);
+  write("frames.txt", "frames/000.pcd\nframes/009.pcd\n");
+  EXPECT_THAT(refusal(), HasSubstr("frames.txt:2: frame 'frames/009.pcd' is missing"));
+}
+
+}  // namespace
+}  // namespace plumb

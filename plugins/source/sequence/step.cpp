@@ -1,0 +1,79 @@
+#include <memory>
+#include <optional>
+
+#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/plugin/module.hpp"
+#include "sequence_folder.hpp"
+
+namespace plumb {
+namespace {
+
+enum class Coordinates { sensor, world };
+
+struct Sequence : WholeStep {
+  struct In {};
+  struct Out {
+    Lazy<Frame> frames;
+    Trajectory trajectory;
+  };
+  struct Params {
+    std::filesystem::path path;
+    std::optional<std::filesystem::path> trajectory;
+    Coordinates coordinates = Coordinates::sensor;
+  };
+
+  static void describe(Declaration<Sequence>& is) {
+    is.name("source.sequence").version(1).source("Plumb");
+    is.summary("Reads a folder of PCD or PLY frames and the trajectory that the SLAM gave them.");
+    is.output("frames", &Out::frames,
+              "one cloud a frame, in sensor coordinates, read when it is needed");
+    is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
+    is.param("path", &Params::path)
+        .required()
+        .doc("folder with frames/*.pcd or *.ply, or frames.txt, a list of them");
+    is.param("trajectory", &Params::trajectory)
+        .doc("TUM file with one pose a frame; none: odometry.tum in the folder");
+    is.choice("coordinates", &Params::coordinates,
+              {{"sensor", Coordinates::sensor, "the clouds are as the sensor saw them"},
+               {"world", Coordinates::world,
+                "the clouds were already moved by the trajectory's poses"}})
+        .doc("coordinates that the clouds are stored in");
+  }
+
+  Out run(const In&, const Params& params, Context&) const {
+    auto files = frames_of(params.path);
+    const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
+    auto trajectory = std::make_shared<const Trajectory>(read_tum(poses_from));
+    io::require_pose_each(params.path, files.size(), poses_from, trajectory->size());
+
+    const bool world = params.coordinates == Coordinates::world;
+    Out out;
+    out.trajectory = *trajectory;
+    for (std::size_t k = 0; k < files.size(); ++k)
+      out.frames.keys.push_back(key_of_frame(files[k], world, trajectory->T_world_frame[k]));
+    out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
+                                                                    Context& context) {
+      auto [cloud, dropped] = read_cloud(files[k].path);
+      if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+      if (world) bring_to_frame(cloud, trajectory->T_world_frame[k]);
+      return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
+    };
+    return out;
+  }
+
+  /// In world coordinates the frame depends on its pose too.
+  static Hash128 key_of_frame(const io::FrameFile& file, bool world, const Pose& T_world_frame) {
+    const Hash128 of_file = io::key_of(file);
+    if (!world) return of_file;
+    Hasher hasher;
+    hasher.bytes(&of_file, sizeof of_file);
+    hasher.bytes(T_world_frame.rotation.coeffs().data(), 4 * sizeof(double));
+    hasher.bytes(T_world_frame.translation.data(), 3 * sizeof(double));
+    return hasher.hash();
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::Sequence)
