@@ -26,7 +26,8 @@ struct Cut {
   float cost = std::numeric_limits<float>::infinity();
 };
 
-/// The cheapest of the planes between bins: area times number on either side (surface area heuristic).
+/// The cheapest of the planes between bins: area times number on either side (surface area
+/// heuristic).
 Cut best_cut(const Primitive* first, std::uint32_t count, const Box& centres) {
   Cut best;
   for (int axis = 0; axis < 3; ++axis) {
@@ -35,7 +36,8 @@ Cut best_cut(const Primitive* first, std::uint32_t count, const Box& centres) {
     std::array<Box, bins> box;
     std::array<float, bins> number{};
     for (std::uint32_t k = 0; k < count; ++k) {
-      const int b = std::min(bins - 1, static_cast<int>((first[k].centre[axis] - low) / extent * bins));
+      const int b =
+          std::min(bins - 1, static_cast<int>((first[k].centre[axis] - low) / extent * bins));
       grow(box[static_cast<std::size_t>(b)], bounds(first[k]));
       number[static_cast<std::size_t>(b)] += 1;
     }
@@ -65,7 +67,8 @@ Cut best_cut(const Primitive* first, std::uint32_t count, const Box& centres) {
 Bvh::Bvh(std::vector<Primitive>& primitives) {
   if (primitives.empty()) return;
   nodes_.reserve(2 * primitives.size());
-  nodes_.push_back({{}, 0, {}, static_cast<std::uint32_t>(primitives.size())});
+  nodes_.push_back({Eigen::Vector3f::Zero(), 0, Eigen::Vector3f::Zero(),
+                    static_cast<std::uint32_t>(primitives.size())});
   for (std::uint32_t k = 0; k < nodes_.size(); ++k) split(k, primitives);
 }
 
@@ -84,14 +87,15 @@ void Bvh::split(std::uint32_t index, std::vector<Primitive>& primitives) {
   if (cut.axis < 0) return;
   const float low = centres.low[cut.axis], extent = centres.high[cut.axis] - low;
   const auto middle = std::stable_partition(first, first + node.count, [&](const Primitive& p) {
-    return std::min(bins - 1, static_cast<int>((p.centre[cut.axis] - low) / extent * bins)) <= cut.bin;
+    return std::min(bins - 1, static_cast<int>((p.centre[cut.axis] - low) / extent * bins)) <=
+           cut.bin;
   });
   const auto left = static_cast<std::uint32_t>(middle - first);
   const std::uint32_t begin = node.first, count = node.count;
   node.first = static_cast<std::uint32_t>(nodes_.size());
   node.count = 0;
-  nodes_.push_back({{}, begin, {}, left});
-  nodes_.push_back({{}, begin + left, {}, count - left});
+  nodes_.push_back({Eigen::Vector3f::Zero(), begin, Eigen::Vector3f::Zero(), left});
+  nodes_.push_back({Eigen::Vector3f::Zero(), begin + left, Eigen::Vector3f::Zero(), count - left});
 }
 
 }  // namespace plumb::simulate

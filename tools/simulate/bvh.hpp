@@ -11,20 +11,23 @@
 
 namespace plumb::simulate {
 
-/// Built once, then read by any number of threads. The primitives are reordered so that those of a leaf lie together.
+/// Built once, then read by any number of threads. The primitives are reordered so that those of a
+/// leaf lie together.
 class Bvh {
  public:
   Bvh() = default;
   explicit Bvh(std::vector<Primitive>& primitives);
 
-  /// Calls visit(k) for primitives that `ray` may meet nearer than `hit.t`, near boxes first; visit may lower hit.t.
+  /// Calls visit(k) for primitives that `ray` may meet nearer than `hit.t`, near boxes first; visit
+  /// may lower hit.t.
   template <class Visit>
   void along(const Ray& ray, const Hit& hit, Visit visit) const;
 
  private:
   struct Node {
     Eigen::Vector3f low;
-    std::uint32_t first;  ///< leaf: its first primitive; inner: its left child, the right one follows
+    std::uint32_t
+        first;  ///< leaf: its first primitive; inner: its left child, the right one follows
     Eigen::Vector3f high;
     std::uint32_t count;  ///< 0: inner
   };
@@ -40,16 +43,17 @@ void Bvh::along(const Ray& ray, const Hit& hit, Visit visit) const {
   for (int k = 0; k < 3; ++k)
     inverse[k] = 1 / (std::abs(ray.direction[k]) < 1e-20f ? 1e-20f : ray.direction[k]);
   const Eigen::Vector3f offset = ray.origin.cwiseProduct(inverse);
-  const auto entry = [&](const Node& node) {  // distance to the box, infinite where the ray passes by
-    float enter = 0, leave = hit.t;
-    for (int k = 0; k < 3; ++k) {
-      const float a = node.low[k] * inverse[k] - offset[k];
-      const float b = node.high[k] * inverse[k] - offset[k];
-      enter = std::max(enter, std::min(a, b));
-      leave = std::min(leave, std::max(a, b));
-    }
-    return enter <= leave ? enter : std::numeric_limits<float>::infinity();
-  };
+  const auto entry =
+      [&](const Node& node) {  // distance to the box, infinite where the ray passes by
+        float enter = 0, leave = hit.t;
+        for (int k = 0; k < 3; ++k) {
+          const float a = node.low[k] * inverse[k] - offset[k];
+          const float b = node.high[k] * inverse[k] - offset[k];
+          enter = std::max(enter, std::min(a, b));
+          leave = std::min(leave, std::max(a, b));
+        }
+        return enter <= leave ? enter : std::numeric_limits<float>::infinity();
+      };
   struct Waiting {
     std::uint32_t node;
     float enter;

@@ -1,4 +1,5 @@
-/// Lays a city out along a path: first the houses, then what stands between them, then what stands on the street.
+/// Lays a city out along a path: first the houses, then what stands between them, then what stands
+/// on the street.
 
 #include <cmath>
 #include <optional>
@@ -35,8 +36,8 @@ class Builder {
   float uniform(double low, double high) { return static_cast<float>(random_.uniform(low, high)); }
   bool chance(double share) { return random_.chance(share); }
 
-  /// A free rectangle of the given half lengths beside node k, its near edge `lateral` from the node's lane or as little more
-  /// as keeps `clearance` from every lane; taken at once.
+  /// A free rectangle of the given half lengths beside node k, its near edge `lateral` from the
+  /// node's lane or as little more as keeps `clearance` from every lane; taken at once.
   std::optional<Rectangle> place(std::size_t k, float side, const Vector2f& half, float lateral,
                                  float clearance, float tolerance = 0) {
     const Street::Node& node = street_.nodes()[k];
@@ -76,7 +77,8 @@ class Builder {
     p.half = {r.half.x(), r.half.y(), 0.5f * (z1 - z0)};
     return primitives.emplace_back(p);
   }
-  void round(Primitive::Kind kind, const Vector3f& centre, const Vector3f& half, float reflectance) {
+  void round(Primitive::Kind kind, const Vector3f& centre, const Vector3f& half,
+             float reflectance) {
     Primitive p;
     p.kind = kind, p.reflectance = reflectance, p.centre = centre, p.half = half;
     primitives.push_back(p);
@@ -144,24 +146,32 @@ void Builder::house(const Rectangle& plot, float side, float height) {
   const Vector2f to_street = -side * Vector2f(-plot.along.y(), plot.along.x());
   const Vector2f front = plot.centre + plot.half.y() * to_street;
   const auto part = [&](float u, float width, float reach, float z0, float z1, float reflectance) {
-    const Rectangle r{front + u * plot.along + 0.5f * reach * to_street, plot.along,
+    const Rectangle r{front + u * plot.along + 0.5f * reach * to_street,
+                      plot.along,
                       {0.5f * width, 0.5f * reach + 0.05f}};
     box(r, base + z0, base + z1, reflectance);
   };
   const float end = plot.half.x() - 1;
   const float second = 0.1f + f.ground_floor;
   if (chance(0.5)) part(0, 2 * plot.half.x(), 0.35f, height - 0.4f, height, wall);  // cornice
-  if (chance(0.35)) part(uniform(-end, end), uniform(1.8, 3), uniform(0.5, 1), second, height - 1, wall);  // oriel
-  if (chance(0.3)) part(uniform(-end, end), uniform(2, 3.2), uniform(0.4, 0.9), -1, second, wall);  // bay window
+  if (chance(0.35))
+    part(uniform(-end, end), uniform(1.8, 3), uniform(0.5, 1), second, height - 1, wall);  // oriel
+  if (chance(0.3))
+    part(uniform(-end, end), uniform(2, 3.2), uniform(0.4, 0.9), -1, second, wall);  // bay window
   for (int k = 0; k < 2; ++k)
-    if (chance(0.5)) part(uniform(-end, end), uniform(1.2, 2.2), uniform(0.4, 1.1), -1, uniform(0.3, 0.8), 0.3f);  // steps
+    if (chance(0.5))
+      part(uniform(-end, end), uniform(1.2, 2.2), uniform(0.4, 1.1), -1, uniform(0.3, 0.8),
+           0.3f);  // steps
   const int balconies = chance(0.4) ? 1 + static_cast<int>(uniform(0, 4)) : 0;
   for (int k = 0; k < balconies; ++k) {
     const float z = second + f.floor * std::floor(uniform(0, 3));
-    if (z + 1.1f < height) part(uniform(-end, end), uniform(1.8, 3.5), uniform(0.8, 1.3), z, z + 1.1f, 0.35f);
+    if (z + 1.1f < height)
+      part(uniform(-end, end), uniform(1.8, 3.5), uniform(0.8, 1.3), z, z + 1.1f, 0.35f);
   }
   for (int k = 0; k < 3; ++k)  // pilasters and drain pipes
-    if (chance(0.4)) part(uniform(-end - 0.7, end + 0.7), uniform(0.2, 0.6), uniform(0.12, 0.35), -1, height - 0.5f, wall);
+    if (chance(0.4))
+      part(uniform(-end - 0.7, end + 0.7), uniform(0.2, 0.6), uniform(0.12, 0.35), -1,
+           height - 0.5f, wall);
 }
 
 void Builder::fences(float side) {
@@ -182,7 +192,8 @@ void Builder::cars(float side) {
   march([&](std::size_t k) {
     if (!chance(0.15 + 0.7 * character(k, side, 1))) return uniform(5, 9);
     const bool van = chance(0.18);
-    const Vector2f half(van ? uniform(2.4, 2.9) : uniform(1.9, 2.4), van ? 1.0f : uniform(0.8, 0.95));
+    const Vector2f half(van ? uniform(2.4, 2.9) : uniform(1.9, 2.4),
+                        van ? 1.0f : uniform(0.8, 0.95));
     const auto r = place(k, side, half, half_width_ - uniform(3.8, 4.1), 2.4f);
     if (!r) return 3.0f;
     const float base = ground_at(*r), paint = uniform(0.1, 0.8);
@@ -199,7 +210,8 @@ void Builder::cars(float side) {
       box(cabin, bonnet, bonnet + uniform(0.5, 0.7), 0.2f);
     }
     for (const float end : {-0.62f, 0.62f}) {  // axles with wheels, seen as one dark block
-      Rectangle wheel{r->centre + end * r->half.x() * r->along, r->along, {0.3f, r->half.y() * 0.96f}};
+      Rectangle wheel{
+          r->centre + end * r->half.x() * r->along, r->along, {0.3f, r->half.y() * 0.96f}};
       box(wheel, base - 0.1f, base + 0.45f, 0.08f);
     }
     return 2 * half.x() + uniform(0.6, 3);
@@ -219,8 +231,8 @@ void Builder::trees(float side) {
     for (int n = 0; n < lobes; ++n) {
       const float a = uniform(0.5, 1.0) * size;
       round(Primitive::Kind::ellipsoid,
-            {r->centre.x() + 0.7f * size * uniform(-1, 1), r->centre.y() + 0.7f * size * uniform(-1, 1),
-             base + trunk + size * uniform(0.1, 1.6)},
+            {r->centre.x() + 0.7f * size * uniform(-1, 1),
+             r->centre.y() + 0.7f * size * uniform(-1, 1), base + trunk + size * uniform(0.1, 1.6)},
             {a, a, a * uniform(0.7, 1.1)}, 0.5f);
     }
     return uniform(5, 14);
@@ -238,9 +250,11 @@ void Builder::poles(float side) {
           {radius, radius, 0.5f * top + 0.3f}, 0.4f);
     const Vector2f across(-r->along.y(), r->along.x());
     if (lamp) {
-      box({r->centre - side * 0.8f * across, across, {0.9f, 0.1f}}, base + top, base + top + 0.15f, 0.4f);
+      box({r->centre - side * 0.8f * across, across, {0.9f, 0.1f}}, base + top, base + top + 0.15f,
+          0.4f);
     } else {
-      box({r->centre, across, {uniform(0.25, 0.45), 0.03f}}, base + top - uniform(0.4, 0.8), base + top, 0.9f);
+      box({r->centre, across, {uniform(0.25, 0.45), 0.03f}}, base + top - uniform(0.4, 0.8),
+          base + top, 0.9f);
     }
     return uniform(9, 30);
   });
@@ -265,8 +279,8 @@ void Builder::small_things(float side) {
 
 }  // namespace
 
-World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height, double street_width,
-                 std::uint64_t seed) {
+World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
+                 double street_width, std::uint64_t seed) {
   const Eigen::Vector3d origin = path.front();
   std::vector<Vector3f> local;
   local.reserve(path.size());

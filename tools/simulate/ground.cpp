@@ -13,8 +13,8 @@ constexpr int block = 8;  // cells along a block's edge
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float reflectance = 0.2f;
 
-/// Visits the cells of a grid that the line a + t d crosses for t in [t0, t1], in order, as visit(i, j, enter, leave),
-/// until one returns true. The line must lie inside the grid.
+/// Visits the cells of a grid that the line a + t d crosses for t in [t0, t1], in order, as
+/// visit(i, j, enter, leave), until one returns true. The line must lie inside the grid.
 template <class Visit>
 bool walk(const Vector2f& a, const Vector2f& d, float cell, int columns, int rows, float t0,
           float t1, Visit visit) {
@@ -116,7 +116,8 @@ bool Ground::intersect(const Ray& ray, Hit& hit) const {
   if (columns_ < 2) return false;
   const Vector2f a = ray.origin.head<2>() - low_, d = ray.direction.head<2>();
   float t0 = 0, t1 = std::min(hit.t, 1e6f);
-  const Vector2f size(cell_ * static_cast<float>(columns_ - 1), cell_ * static_cast<float>(rows_ - 1));
+  const Vector2f size(cell_ * static_cast<float>(columns_ - 1),
+                      cell_ * static_cast<float>(rows_ - 1));
   for (int k = 0; k < 2; ++k) {  // clip to the grid
     if (d[k] == 0) {
       if (a[k] < 0 || a[k] > size[k]) return false;
@@ -131,7 +132,8 @@ bool Ground::intersect(const Ray& ray, Hit& hit) const {
   const int block_rows = static_cast<int>(block_top_.size()) / block_columns_;
   walk(a, d, cell_ * block, block_columns_, block_rows, t0, t1,
        [&](int bi, int bj, float enter, float leave) {
-         const float z = ray.origin.z() + std::min(enter * ray.direction.z(), leave * ray.direction.z());
+         const float z =
+             ray.origin.z() + std::min(enter * ray.direction.z(), leave * ray.direction.z());
          if (z > block_top_[static_cast<std::size_t>(bj * block_columns_ + bi)]) return false;
          return walk(a, d, cell_, columns_ - 1, rows_ - 1, enter, leave,
                      [&](int i, int j, float in, float out) {

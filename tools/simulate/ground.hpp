@@ -1,5 +1,6 @@
 #pragma once
-/// The ground: one height function of the whole world, so that every pass of a place meets the same street.
+/// The ground: one height function of the whole world, so that every pass of a place meets the same
+/// street.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +9,8 @@
 
 namespace plumb::simulate {
 
-/// A grid of heights [m]; between them two triangles a cell, split along the diagonal from low to high corner.
+/// A grid of heights [m]; between them two triangles a cell, split along the diagonal from low to
+/// high corner.
 class Ground {
  public:
   Ground() = default;
@@ -18,7 +20,8 @@ class Ground {
   /// Height at (x, y); beyond the grid, that of its border.
   float height(float x, float y) const;
 
-  /// Where `ray` goes under the ground, if that is nearer than `hit.t`; beyond the grid there is none.
+  /// Where `ray` goes under the ground, if that is nearer than `hit.t`; beyond the grid there is
+  /// none.
   bool intersect(const Ray& ray, Hit& hit) const;
 
   int columns() const { return columns_; }
@@ -40,13 +43,14 @@ class Ground {
   int columns_ = 0, rows_ = 0;
   int block_columns_ = 0;
   std::vector<float> heights_;
-  std::vector<float> block_top_;  ///< greatest height in each block of cells: what a ray must dip under
+  std::vector<float>
+      block_top_;  ///< greatest height in each block of cells: what a ray must dip under
 };
 
-/// The ground under the points `path` (about one a metre; x, y and the ground's z there [m]), with `margin` [m] around:
-/// near the path a mean of the nearby points' heights, a few metres smooth, so that passes that disagree share one street;
-/// farther away an ever smoother one. Beyond `kerb` [m] from every point a pavement 0.12 m higher, then uneven land, grown
-/// from `seed`.
+/// The ground under the points `path` (about one a metre; x, y and the ground's z there [m]), with
+/// `margin` [m] around: near the path a mean of the nearby points' heights, a few metres smooth, so
+/// that passes that disagree share one street; farther away an ever smoother one. Beyond `kerb` [m]
+/// from every point a pavement 0.12 m higher, then uneven land, grown from `seed`.
 Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float margin,
                     std::uint64_t seed);
 

@@ -19,13 +19,15 @@ struct Size {
   }
 };
 
-/// Running mean over 2 r + 1 samples of the line that starts at `first` with the given stride; outside counts as 0.
+/// Running mean over 2 r + 1 samples of the line that starts at `first` with the given stride;
+/// outside counts as 0.
 void blur_line(Grid& grid, std::size_t first, std::size_t stride, int n, int r, Grid& line) {
   line.resize(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k)
     line[static_cast<std::size_t>(k)] = grid[first + static_cast<std::size_t>(k) * stride];
   double sum = 0;
-  for (int k = 0; k < std::min(r, n); ++k) sum += static_cast<double>(line[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < std::min(r, n); ++k)
+    sum += static_cast<double>(line[static_cast<std::size_t>(k)]);
   for (int k = 0; k < n; ++k) {
     if (k + r < n) sum += static_cast<double>(line[static_cast<std::size_t>(k + r)]);
     if (k - r > 0) sum -= static_cast<double>(line[static_cast<std::size_t>(k - r - 1)]);
@@ -34,7 +36,8 @@ void blur_line(Grid& grid, std::size_t first, std::size_t stride, int n, int r, 
   }
 }
 
-/// Three running means each way: nearly a Gaussian, of deviation about r + 0.5 samples. For grids without negative values.
+/// Three running means each way: nearly a Gaussian, of deviation about r + 0.5 samples. For grids
+/// without negative values.
 Grid blurred(Grid grid, const Size& size, int r) {
   Grid line;
   for (int pass = 0; pass < 3; ++pass) {
@@ -51,7 +54,8 @@ float bumps(float x, float y, float wave, std::uint64_t seed) {
   const float i = std::floor(gx), j = std::floor(gy);
   const auto corner = [&](float a, float b) {
     return 2 * unit(mix(seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(i + a)),
-                        static_cast<std::uint64_t>(static_cast<std::int64_t>(j + b)))) - 1;
+                        static_cast<std::uint64_t>(static_cast<std::int64_t>(j + b)))) -
+           1;
   };
   const auto ease = [](float s) { return s * s * (3 - 2 * s); };
   const float u = ease(gx - i), v = ease(gy - j);
@@ -86,7 +90,8 @@ Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float 
     for (int b = std::max(0, j - reach); b <= std::min(size.rows - 1, j + reach); ++b)
       for (int a = std::max(0, i - reach); a <= std::min(size.columns - 1, i + reach); ++a) {
         float& d = distance[size.at(a, b)];
-        d = std::min(d, cell * std::hypot(static_cast<float>(a) - g.x(), static_cast<float>(b) - g.y()));
+        d = std::min(
+            d, cell * std::hypot(static_cast<float>(a) - g.x(), static_cast<float>(b) - g.y()));
       }
   }
 
@@ -96,7 +101,8 @@ Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float 
   Grid height(n, static_cast<float>(mean / static_cast<double>(path.size())));
   for (int r = 64; r >= 2; r /= 2) {
     const Grid w = blurred(weight, size, r), s = blurred(sum, size, r);
-    const float little = 0.02f / static_cast<float>(r);  // a path of one sample a metre has about 0.4 / r
+    const float little =
+        0.02f / static_cast<float>(r);  // a path of one sample a metre has about 0.4 / r
     for (std::size_t k = 0; k < n; ++k) height[k] = (s[k] + little * height[k]) / (w[k] + little);
   }
 

@@ -17,8 +17,8 @@ struct Opening {
   float u0, u1, v0, v1, depth;
 };
 
-/// The opening in the cell of the facade that holds (u, v), if there is one. u runs along the side from its left end,
-/// `width` long, v up from the pavement.
+/// The opening in the cell of the facade that holds (u, v), if there is one. u runs along the side
+/// from its left end, `width` long, v up from the pavement.
 bool opening_at(const Facade& f, int side, float width, float top, float u, float v, Opening& o) {
   const float bays = std::floor(width / f.bay);
   if (bays < 1 || v < 0) return false;
@@ -51,8 +51,8 @@ bool opening_at(const Facade& f, int side, float width, float top, float u, floa
   return u > o.u0 && u < o.u1 && v > o.v0 && v < o.v1;
 }
 
-/// Follows a ray that met the side `axis` (0: x, 1: y) of a box at `t` into an opening, if it met one.
-/// o and d are the ray in the box's own coordinates; `normal` and `t` are replaced.
+/// Follows a ray that met the side `axis` (0: x, 1: y) of a box at `t` into an opening, if it met
+/// one. o and d are the ray in the box's own coordinates; `normal` and `t` are replaced.
 bool enter_opening(const Primitive& p, const Facade& f, const Vector3f& o, const Vector3f& d,
                    int axis, float& t, Vector3f& normal) {
   const int along = 1 - axis;
@@ -171,9 +171,15 @@ bool intersect(const Primitive& p, const Facade* facade, const Ray& ray, Hit& hi
   bool pane = false;
   bool met = false;
   switch (p.kind) {
-    case Primitive::Kind::box: met = meet_box(p, facade, o, d, hit.t, t, n, pane); break;
-    case Primitive::Kind::cylinder: met = meet_cylinder(p, o, d, t, n); break;
-    case Primitive::Kind::ellipsoid: met = meet_ellipsoid(p, o, d, t, n); break;
+    case Primitive::Kind::box:
+      met = meet_box(p, facade, o, d, hit.t, t, n, pane);
+      break;
+    case Primitive::Kind::cylinder:
+      met = meet_cylinder(p, o, d, t, n);
+      break;
+    case Primitive::Kind::ellipsoid:
+      met = meet_ellipsoid(p, o, d, t, n);
+      break;
   }
   if (!met || t >= hit.t) return false;
   hit = {t, Vector3f(c * n.x() - s * n.y(), s * n.x() + c * n.y(), n.z()),

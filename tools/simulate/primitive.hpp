@@ -1,5 +1,6 @@
 #pragma once
-/// What the simulated world is built of besides the ground: boxes, upright cylinders and ellipsoids.
+/// What the simulated world is built of besides the ground: boxes, upright cylinders and
+/// ellipsoids.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -22,8 +23,8 @@ struct Hit {
   float reflectance = 0;
 };
 
-/// Openings (windows, doors, shop fronts) recessed into the four sides of a building; which bay of which floor has one, and
-/// how large it is, follows from `seed`, so that no two houses look alike.
+/// Openings (windows, doors, shop fronts) recessed into the four sides of a building; which bay of
+/// which floor has one, and how large it is, follows from `seed`, so that no two houses look alike.
 struct Facade {
   std::uint64_t seed = 0;
   float base = 0;            ///< height of the pavement in front [m]
@@ -43,14 +44,15 @@ struct Primitive {
   float reflectance = 0.4f;
   float cosine = 1, sine = 0;
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();
-  Eigen::Vector3f half = Eigen::Vector3f::Ones();  ///< half lengths; radius, radius, half height; semi-axes
+  Eigen::Vector3f half =
+      Eigen::Vector3f::Ones();  ///< half lengths; radius, radius, half height; semi-axes
 };
 
 /// The smallest upright box round `p`.
 Box bounds(const Primitive& p);
 
-/// Where `ray` enters `p` (whose facade, if any, is `facade`), if that is nearer than `hit.t`: then `hit` is replaced.
-/// A ray that starts inside does not see the solid.
+/// Where `ray` enters `p` (whose facade, if any, is `facade`), if that is nearer than `hit.t`: then
+/// `hit` is replaced. A ray that starts inside does not see the solid.
 bool intersect(const Primitive& p, const Facade* facade, const Ray& ray, Hit& hit);
 
 }  // namespace plumb::simulate

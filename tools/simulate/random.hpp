@@ -1,11 +1,13 @@
 #pragma once
-/// Random numbers that depend on nothing but their seed: no standard distribution, whose output differs by library.
+/// Random numbers that depend on nothing but their seed: no standard distribution, whose output
+/// differs by library.
 
 #include <cstdint>
 
 namespace plumb::simulate {
 
-/// Mixes 64 bits so that every input bit moves every output bit. Source: SplitMix64's finaliser (Steele et al. 2014).
+/// Mixes 64 bits so that every input bit moves every output bit. Source: SplitMix64's finaliser
+/// (Steele et al. 2014).
 inline std::uint64_t mix(std::uint64_t v) {
   v += 0x9e3779b97f4a7c15ULL;
   v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -19,13 +21,14 @@ inline std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) 
 }
 
 /// Uniform in [0, 1) from 24 of the bits; exact on every machine.
-inline float unit(std::uint64_t bits) {
-  return static_cast<float>(bits >> 40) * 0x1p-24f;
-}
+inline float unit(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
 
-/// Nearly normal, mean 0 and deviation 1: the sum of four uniform numbers, exact on every machine, never beyond 3.47.
+/// Nearly normal, mean 0 and deviation 1: the sum of four uniform numbers, exact on every machine,
+/// never beyond 3.47.
 inline float normal(std::uint64_t bits) {
-  const auto part = [bits](int k) { return static_cast<std::int32_t>((bits >> (16 * k)) & 0xffff); };
+  const auto part = [bits](int k) {
+    return static_cast<std::int32_t>((bits >> (16 * k)) & 0xffff);
+  };
   const std::int32_t sum = part(0) + part(1) + part(2) + part(3) - 2 * 0xffff;
   return static_cast<float>(sum) * (1.7320508f / 65536.0f);
 }

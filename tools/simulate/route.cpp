@@ -20,11 +20,12 @@ constexpr double lane = 1.75;          // from the middle of the street [m]
 constexpr double corner_radius = 7;    // [m]
 constexpr double again = 1.2;          // rounds of a loop
 
-/// The crossings passed on a walk over a 3 x 3 grid; it ends where it begins, from another side, and never turns on the spot.
-constexpr std::array<std::array<int, 2>, 34> walk{{
-    {0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 0}, {0, 0}, {0, 1},
-    {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2},
-    {0, 2}, {0, 1}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {2, 0}, {1, 0}, {1, 1}, {0, 1}}};
+/// The crossings passed on a walk over a 3 x 3 grid; it ends where it begins, from another side,
+/// and never turns on the spot.
+constexpr std::array<std::array<int, 2>, 34> walk{
+    {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 0}, {0, 0}, {0, 1},
+     {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2},
+     {0, 2}, {0, 1}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {2, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
 double length_of(const Line& line) {
   double sum = 0;
@@ -32,7 +33,8 @@ double length_of(const Line& line) {
   return sum;
 }
 
-/// The line moved to the right by `offset` [m]; where it bends, to the meeting point of its neighbours.
+/// The line moved to the right by `offset` [m]; where it bends, to the meeting point of its
+/// neighbours.
 Line moved_right(const Line& line, double offset) {
   Line result;
   const auto right = [&](std::size_t k) {  // of the piece from k to k + 1
@@ -56,7 +58,8 @@ Line rounded(const Line& line) {
     const double half_tangent = std::tan(0.5 * std::abs(turn));
     if (half_tangent < 1e-3) continue;
     const double room = 0.45 * std::min(in.norm(), out.norm());
-    const double radius = std::min(std::abs(turn) < 0.6 ? 4 * corner_radius : corner_radius, room / half_tangent);
+    const double radius =
+        std::min(std::abs(turn) < 0.6 ? 4 * corner_radius : corner_radius, room / half_tangent);
     const Vector2d begin = line[k] - radius * half_tangent * a;
     const Vector2d centre = begin + std::copysign(radius, turn) * Vector2d(-a.y(), a.x());
     const int pieces = std::max(2, static_cast<int>(radius * std::abs(turn) / 0.1));
@@ -71,7 +74,8 @@ Line rounded(const Line& line) {
   return result;
 }
 
-/// The crossings of a loop, displaced at random once and passed on each round alike, for two rounds.
+/// The crossings of a loop, displaced at random once and passed on each round alike, for two
+/// rounds.
 Line two_rounds(const Line& loop, double bend, Random& random) {
   Line bent;
   for (const Vector2d& p : loop)
@@ -85,7 +89,14 @@ Line two_rounds(const Line& loop, double bend, Random& random) {
 Line city_loop(double length, Random& random) {
   const double block = std::max(shortest_block, length / again / 6);
   Line loop;
-  for (const auto& [x, y] : {std::array{0.5, 0.0}, {2.0, 0.0}, {2.0, 0.5}, {2.0, 1.0}, {1.0, 1.0}, {0.0, 1.0}, {0.0, 0.5}, {0.0, 0.0}})
+  for (const auto& [x, y] : {std::array{0.5, 0.0},
+                             {2.0, 0.0},
+                             {2.0, 0.5},
+                             {2.0, 1.0},
+                             {1.0, 1.0},
+                             {0.0, 1.0},
+                             {0.0, 0.5},
+                             {0.0, 0.0}})
     loop.emplace_back(block * x, block * y);
   return two_rounds(loop, 0.07 * block, random);
 }
@@ -93,7 +104,16 @@ Line city_loop(double length, Random& random) {
 Line figure_eight(double length, Random& random) {
   const double block = std::max(shortest_block, length / again / 8);
   Line loop;
-  for (const auto& [x, y] : {std::array{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {0.0, 0.5}, {0.0, -0.5}, {0.0, -1.0}, {-1.0, -1.0}, {-1.0, 0.0}, {-0.5, 0.0}})
+  for (const auto& [x, y] : {std::array{0.5, 0.0},
+                             {1.0, 0.0},
+                             {1.0, 1.0},
+                             {0.0, 1.0},
+                             {0.0, 0.5},
+                             {0.0, -0.5},
+                             {0.0, -1.0},
+                             {-1.0, -1.0},
+                             {-1.0, 0.0},
+                             {-0.5, 0.0}})
     loop.emplace_back(block * x, block * y);
   return two_rounds(loop, 0.05 * block, random);
 }
@@ -109,7 +129,8 @@ Line out_and_back(double length, Random& random) {
     heading = std::clamp(heading + random.uniform(-0.7, 0.7), -1.0, 1.0);
   }
   const std::size_t corners = way.size();
-  const Vector2d ahead = (way[corners - 1] - way[corners - 2]).normalized(), left(-ahead.y(), ahead.x());
+  const Vector2d ahead = (way[corners - 1] - way[corners - 2]).normalized(),
+                 left(-ahead.y(), ahead.x());
   const Vector2d end = way.back();
   for (const auto& [x, y] : {std::array{8.0, -8.0}, {22.0, -8.0}, {22.0, 8.0}, {8.0, 8.0}})
     way.push_back(end + x * ahead + y * left);
@@ -152,18 +173,25 @@ struct Hills {
 }  // namespace
 
 const std::vector<std::string>& route_names() {
-  static const std::vector<std::string> names{"city_loop", "figure_eight", "out_and_back", "blocks"};
+  static const std::vector<std::string> names{"city_loop", "figure_eight", "out_and_back",
+                                              "blocks"};
   return names;
 }
 
 Trajectory drive(const RouteOptions& options) {
   Random random(mix(options.seed, 0x726f757465));
   Line middle;
-  if (options.name == "city_loop") middle = city_loop(options.length, random);
-  else if (options.name == "figure_eight") middle = figure_eight(options.length, random);
-  else if (options.name == "out_and_back") middle = out_and_back(options.length, random);
-  else if (options.name == "blocks") middle = blocks(options.length, random);
-  else throw Error("no route is called '" + options.name + "'; " + suggestion(options.name, route_names()));
+  if (options.name == "city_loop")
+    middle = city_loop(options.length, random);
+  else if (options.name == "figure_eight")
+    middle = figure_eight(options.length, random);
+  else if (options.name == "out_and_back")
+    middle = out_and_back(options.length, random);
+  else if (options.name == "blocks")
+    middle = blocks(options.length, random);
+  else
+    throw Error("no route is called '" + options.name + "'; " +
+                suggestion(options.name, route_names()));
   const Line line = rounded(moved_right(middle, lane));
   const Hills hills(random);
   const double rocking = random.uniform(0, 6);
@@ -192,9 +220,9 @@ Trajectory drive(const RouteOptions& options) {
     const double bank = hills.at(here + left) - hills.at(here - left);
     const double pitch = -std::atan2(climb, 2.0) + 0.004 * std::sin(0.9 * time + rocking);
     const double roll = std::atan2(bank, 2.0) + 0.004 * std::sin(1.3 * time + 2 * rocking);
-    const Eigen::Quaterniond q = Eigen::AngleAxisd(std::atan2(way.y(), way.x()), Vector3d::UnitZ()) *
-                                 Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(roll, Vector3d::UnitX());
+    const Eigen::Quaterniond q =
+        Eigen::AngleAxisd(std::atan2(way.y(), way.x()), Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX());
     result.stamps.push_back(time);
     result.T_world_frame.emplace_back(
         q, Vector3d(here.x(), here.y(), hills.at(here) + options.sensor_height));

@@ -20,14 +20,14 @@ const std::vector<std::string>& route_names();
 struct RouteOptions {
   std::string name;
   std::size_t frames = 0;
-  double length = 0;         ///< from the first frame to the last, on the map [m]
-  double rate = 10;          ///< frames a second [1/s]; the speed is even and follows
+  double length = 0;            ///< from the first frame to the last, on the map [m]
+  double rate = 10;             ///< frames a second [1/s]; the speed is even and follows
   double sensor_height = 1.73;  ///< above the ground [m]
-  std::uint64_t seed = 1;    ///< bends the streets and the hills
+  std::uint64_t seed = 1;       ///< bends the streets and the hills
 };
 
-/// Poses of a car on the right lane of gentle hills: x ahead, y left, z up, with the road's slopes and a slight rocking.
-/// Begins at stamp 0. Throws Error for a name that is none of route_names().
+/// Poses of a car on the right lane of gentle hills: x ahead, y left, z up, with the road's slopes
+/// and a slight rocking. Begins at stamp 0. Throws Error for a name that is none of route_names().
 Trajectory drive(const RouteOptions& options);
 
 }  // namespace plumb::simulate

@@ -8,15 +8,20 @@
 
 namespace plumb::simulate {
 
-Scanner::Scanner(const ScannerOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {
-  directions_.reserve(static_cast<std::size_t>(options.lines) * static_cast<std::size_t>(options.columns));
+Scanner::Scanner(const ScannerOptions& options, std::uint64_t seed)
+    : options_(options), seed_(seed) {
+  directions_.reserve(static_cast<std::size_t>(options.lines) *
+                      static_cast<std::size_t>(options.columns));
   for (int column = 0; column < options.columns; ++column) {
-    const double azimuth = -2 * std::numbers::pi * column / options.columns;  // clockwise from ahead
+    const double azimuth =
+        -2 * std::numbers::pi * column / options.columns;  // clockwise from ahead
     for (int line = 0; line < options.lines; ++line) {
-      const double share = options.lines == 1 ? 0.5 : static_cast<double>(line) / (options.lines - 1);
+      const double share =
+          options.lines == 1 ? 0.5 : static_cast<double>(line) / (options.lines - 1);
       const double elevation = options.lowest + share * (options.highest - options.lowest);
       directions_.push_back(Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation))
+                                            std::cos(elevation) * std::sin(azimuth),
+                                            std::sin(elevation))
                                 .cast<float>());
     }
   }

@@ -14,20 +14,21 @@ namespace plumb::simulate {
 struct ScannerOptions {
   int lines = 64;
   int columns = 1024;
-  double lowest = -0.28972465583105868;   ///< elevation of the lowest line [rad], -16.6 deg
-  double highest = 0.28972465583105868;   ///< of the highest [rad]
-  double noise = 0.02;                    ///< deviation of the range [m], nearly normal, never beyond 3.47 deviations
-  double range = 120;                     ///< greatest range [m]
+  double lowest = -0.28972465583105868;  ///< elevation of the lowest line [rad], -16.6 deg
+  double highest = 0.28972465583105868;  ///< of the highest [rad]
+  double noise = 0.02;  ///< deviation of the range [m], nearly normal, never beyond 3.47 deviations
+  double range = 120;   ///< greatest range [m]
 };
 
 class Scanner {
  public:
   Scanner(const ScannerOptions& options, std::uint64_t seed);
 
-  /// One turn, in the sensor's coordinates (x ahead, z up) with intensity (0 to 255: reflectance times the cosine of
-  /// incidence), column by column. Every ray starts at the one pose, as in a frame whose motion is compensated.
-  /// What is out of range gives no point, nor what throws too little light back: at `range` a surface of reflectance 0.1
-  /// met at a right angle is just seen, nearer by the square of the distance more. `frame` picks the noise.
+  /// One turn, in the sensor's coordinates (x ahead, z up) with intensity (0 to 255: reflectance
+  /// times the cosine of incidence), column by column. Every ray starts at the one pose, as in a
+  /// frame whose motion is compensated. What is out of range gives no point, nor what throws too
+  /// little light back: at `range` a surface of reflectance 0.1 met at a right angle is just seen,
+  /// nearer by the square of the distance more. `frame` picks the noise.
   Cloud scan(const World& world, const Pose& T_world_sensor, std::uint64_t frame) const;
 
  private:

@@ -9,16 +9,19 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float cell = 16;           // of the maps' buckets [m]
-constexpr float same_street = 5;     // passes nearer than that [m] ...
-constexpr std::uint32_t later = 30;  // ... and this far apart along the path [m] are two of one street
+constexpr float cell = 16;        // of the maps' buckets [m]
+constexpr float same_street = 5;  // passes nearer than that [m] ...
+constexpr std::uint32_t later =
+    30;  // ... and this far apart along the path [m] are two of one street
 
 std::uint64_t key(std::int32_t i, std::int32_t j) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32 | static_cast<std::uint32_t>(j);
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32 |
+         static_cast<std::uint32_t>(j);
 }
 std::int32_t bucket(float v) { return static_cast<std::int32_t>(std::floor(v / cell)); }
 
-/// Calls visit(index) for all entries in buckets that a square round `p` meets, until one returns true.
+/// Calls visit(index) for all entries in buckets that a square round `p` meets, until one returns
+/// true.
 template <class Cells, class Visit>
 bool around(const Cells& cells, const Vector2f& p, float radius, Visit visit) {
   for (auto j = bucket(p.y() - radius); j <= bucket(p.y() + radius); ++j)
@@ -48,7 +51,8 @@ bool meet_along(const Rectangle& a, const Rectangle& b, float tolerance) {
   const Vector2f centre = a.local(b.centre).cwiseAbs();
   const float cosine = std::abs(a.along.dot(b.along));
   const float sine = std::abs(a.along.x() * b.along.y() - a.along.y() * b.along.x());
-  const Vector2f reach(cosine * b.half.x() + sine * b.half.y(), sine * b.half.x() + cosine * b.half.y());
+  const Vector2f reach(cosine * b.half.x() + sine * b.half.y(),
+                       sine * b.half.x() + cosine * b.half.y());
   return ((a.half + reach - centre).array() > tolerance).all();
 }
 
@@ -73,14 +77,14 @@ Street::Street(const std::vector<Vector3f>& path) {
 }
 
 bool Street::clear(const Rectangle& rectangle, float clearance) const {
-  return !around(cells_, rectangle.centre, rectangle.half.norm() + clearance, [&](std::uint32_t k) {
-    return rectangle.distance(nodes_[k].at) < clearance;
-  });
+  return !around(cells_, rectangle.centre, rectangle.half.norm() + clearance,
+                 [&](std::uint32_t k) { return rectangle.distance(nodes_[k].at) < clearance; });
 }
 
 bool Plots::free(const Rectangle& rectangle, float tolerance) const {
   return !around(cells_, rectangle.centre, rectangle.half.norm(), [&](std::uint32_t k) {
-    return meet_along(rectangle, taken_[k], tolerance) && meet_along(taken_[k], rectangle, tolerance);
+    return meet_along(rectangle, taken_[k], tolerance) &&
+           meet_along(taken_[k], rectangle, tolerance);
   });
 }
 
@@ -88,8 +92,10 @@ void Plots::take(const Rectangle& rectangle) {
   const auto index = static_cast<std::uint32_t>(taken_.size());
   taken_.push_back(rectangle);
   const float reach = rectangle.half.norm();
-  for (auto j = bucket(rectangle.centre.y() - reach); j <= bucket(rectangle.centre.y() + reach); ++j)
-    for (auto i = bucket(rectangle.centre.x() - reach); i <= bucket(rectangle.centre.x() + reach); ++i)
+  for (auto j = bucket(rectangle.centre.y() - reach); j <= bucket(rectangle.centre.y() + reach);
+       ++j)
+    for (auto i = bucket(rectangle.centre.x() - reach); i <= bucket(rectangle.centre.x() + reach);
+         ++i)
       cells_[key(i, j)].push_back(index);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The streets that a path runs along, and which ground is taken: what decides where the city can build.
+/// The streets that a path runs along, and which ground is taken: what decides where the city can
+/// build.
 
 #include <Eigen/Core>
 #include <cstdint>

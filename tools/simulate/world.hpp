@@ -11,7 +11,8 @@
 
 namespace plumb::simulate {
 
-/// Everything in float coordinates about `origin` (where the path begins), so that millimetres survive far from zero.
+/// Everything in float coordinates about `origin` (where the path begins), so that millimetres
+/// survive far from zero.
 class World {
  public:
   World(const Eigen::Vector3d& origin, Ground ground, std::vector<Primitive> primitives,
@@ -41,10 +42,11 @@ class World {
   Bvh bvh_;
 };
 
-/// A city along `path` (sensor positions [m], which the sensor holds `sensor_height` above the ground): houses on both
-/// sides, at least half a `street_width` from every part of the path, so that a street looks the same on each pass; walls and
-/// hedges between them, parked cars, poles, trees. The same seed gives the same city.
-World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height, double street_width,
-                 std::uint64_t seed);
+/// A city along `path` (sensor positions [m], which the sensor holds `sensor_height` above the
+/// ground): houses on both sides, at least half a `street_width` from every part of the path, so
+/// that a street looks the same on each pass; walls and hedges between them, parked cars, poles,
+/// trees. The same seed gives the same city.
+World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
+                 double street_width, std::uint64_t seed);
 
 }  // namespace plumb::simulate

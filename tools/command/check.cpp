@@ -1,0 +1,46 @@
+/// plumb check, resolve, graph: what can be said of a pipeline without running it.
+
+#include <iostream>
+
+#include "pipeline_options.hpp"
+#include "plumb/pipeline/graph.hpp"
+
+namespace plumb::command {
+
+void add_check(CLI::App& app) {
+  auto* command = app.add_subcommand("check", "Checks a pipeline; nothing runs");
+  auto options = std::make_shared<PipelineOptions>();
+  options->add_to(*command);
+  command->footer("Prints every mistake with file:line:column, or the passes of each loop. Exit 1 when there is a mistake.");
+  command->callback([options] {
+    const Registry steps = installed_steps();
+    const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    std::cout << passes_table(plan);
+    std::cout << options->file.string() << ": good, " << plan.steps.size() << " steps\n";
+  });
+}
+
+void add_resolve(CLI::App& app) {
+  auto* command = app.add_subcommand("resolve", "Prints the pipeline after presets and settings, each value with its origin");
+  auto options = std::make_shared<PipelineOptions>();
+  options->add_to(*command);
+  command->callback([options] {
+    const Registry steps = installed_steps();
+    std::cout << read_pipeline(options->file, options->overlay, steps).resolved;
+  });
+}
+
+void add_graph(CLI::App& app) {
+  auto* command = app.add_subcommand("graph", "Prints the wires of a pipeline as a Mermaid or DOT graph");
+  auto options = std::make_shared<PipelineOptions>();
+  auto format = std::make_shared<std::string>("mermaid");
+  options->add_to(*command);
+  command->add_option("--format", *format, "mermaid or dot")->check(CLI::IsMember({"mermaid", "dot"}))->capture_default_str();
+  command->callback([options, format] {
+    const Registry steps = installed_steps();
+    const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    std::cout << (*format == "dot" ? dot_graph(plan) : mermaid_graph(plan));
+  });
+}
+
+}  // namespace plumb::command

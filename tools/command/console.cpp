@@ -1,0 +1,78 @@
+#include "console.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace plumb::command {
+
+Console::Console(bool quiet, const std::string& log_file)
+    : quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {
+  auto screen = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  screen->set_pattern("%v");
+  screen->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+  log_ = std::make_shared<spdlog::logger>("plumb", screen);
+  if (!log_file.empty()) {
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, true);
+    file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+    log_->sinks().push_back(file);
+  }
+}
+
+Console::~Console() {
+  clear();
+  log_->flush();
+}
+
+void Console::clear() {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void Console::draw() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || now - drawn_ < std::chrono::milliseconds(80)) return;
+  drawn_ = now;
+  constexpr int width = 30;
+  const int filled = items_ ? static_cast<int>(width * done_ / items_) : 0;
+  std::fprintf(stderr, "\r\033[K%-24s [%s%s] %zu/%zu", path_.c_str(), std::string(filled, '#').c_str(),
+               std::string(width - filled, ' ').c_str(), done_, items_);
+  std::fflush(stderr);
+}
+
+void Console::step_begins(const std::string& path, std::size_t items) {
+  const std::lock_guard lock(mutex_);
+  path_ = path;
+  items_ = items;
+  done_ = 0;
+  draw();
+}
+
+void Console::item_done(const std::string&) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  draw();
+}
+
+void Console::step_ends(const std::string& path, double seconds) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  const double since = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", since, path, items_, items_ == 1 ? " " : "s", seconds);
+}
+
+void Console::pass_begins(const std::string& repeat, int pass, int at_most) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  log_->info("{}: pass {} of at most {}", repeat, pass + 1, at_most);
+}
+
+void Console::note(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  log_->warn("note: {}", sentence);
+}
+
+}  // namespace plumb::command

@@ -1,0 +1,57 @@
+/// The `plumb` command.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "command.hpp"
+#include "plumb/data/error.hpp"
+#include "plumb/pipeline/diagnostics.hpp"
+
+namespace plumb::command {
+
+std::vector<std::filesystem::path> plugin_path;
+
+Registry installed_steps() { return Registry::scan(Registry::standard_folders(plugin_path)); }
+
+}  // namespace plumb::command
+
+int main(int argc, char** argv) {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with -DPLUMB_ARCH= for any x86-64\n";
+    return 1;
+  }
+  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.", "plumb"};
+  app.footer(
+      "Start with:\n"
+      "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
+      "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
+      "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
+      "Exit: 0 done; 1 a pipeline, sequence or file is wrong; 2 the command line is wrong; 3 a step failed while running.");
+  app.require_subcommand(1);
+  app.add_option("--plugin-path", plumb::command::plugin_path, "A further folder with modules (also PLUMB_PLUGIN_PATH)");
+  app.set_version_flag("--version", PLUMB_VERSION);
+  plumb::command::add_run(app);
+  plumb::command::add_check(app);
+  plumb::command::add_resolve(app);
+  plumb::command::add_graph(app);
+  plumb::command::add_list(app);
+  plumb::command::add_inspect(app);
+  plumb::command::add_doctor(app);
+  plumb::command::add_schema(app);
+  plumb::command::add_simulate(app);
+  plumb::command::add_evaluate(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::RuntimeError& e) {
+    return e.get_exit_code();
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const plumb::PipelineError& e) {
+    std::cerr << e.what() << '\n';
+    return 1;
+  } catch (const std::exception& e) {
+    std::cerr << "plumb: " << e.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+/// What run, check, resolve and graph have in common: a pipeline with presets and settings.
+
+#include <CLI/CLI.hpp>
+
+#include "command.hpp"
+#include "plumb/pipeline/reader.hpp"
+
+namespace plumb::command {
+
+struct PipelineOptions {
+  std::filesystem::path file;
+  Overlay overlay;
+
+  void add_to(CLI::App& command) {
+    command.add_option("PIPELINE", file, "A pipeline or a preset (YAML)")->required();
+    command.add_option("--preset", overlay.presets, "A preset to lay over the pipeline; may be given again")
+        ->allow_extra_args(false);
+    command.add_option("--set", overlay.sets,
+                       "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, coarse.kept.clusters=4; "
+                       "may be given again")
+        ->allow_extra_args(false);
+  }
+};
+
+}  // namespace plumb::command

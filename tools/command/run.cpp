@@ -1,0 +1,57 @@
+/// plumb run: checks, runs, reports.
+
+#include <iostream>
+
+#include "console.hpp"
+#include "pipeline_options.hpp"
+#include "plumb/data/error.hpp"
+#include "plumb/engine/output_folder.hpp"
+#include "plumb/engine/runner.hpp"
+#include "summary.hpp"
+
+namespace plumb::command {
+namespace {
+
+struct Options {
+  PipelineOptions pipeline;
+  std::filesystem::path output;
+  unsigned threads = 0;
+  bool quiet = false, times = false;
+  std::string log;
+};
+
+void run(const Options& options) {
+  const Registry steps = installed_steps();
+  const Plan plan = read_pipeline(options.pipeline.file, options.pipeline.overlay, steps);
+  OutputFolder folder(options.output);
+  try {
+    Console console(options.quiet, options.log);
+    RunOptions run_options;
+    run_options.threads = options.threads;
+    const RunResult result = run_plan(plan, steps, run_options, console);
+    folder.fill(plan, result);
+    if (!options.quiet) print_summary(std::cout, plan, result, options.output, options.times);
+  } catch (const Error& e) {
+    std::cerr << "plumb: " << e.what() << "\n";
+    throw CLI::RuntimeError(3);
+  }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto* command = app.add_subcommand("run", "Checks and runs a pipeline and leaves its results in a folder");
+  auto options = std::make_shared<Options>();
+  options->pipeline.add_to(*command);
+  command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced")->required();
+  command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->capture_default_str();
+  command->add_flag("--quiet", options->quiet, "Only warnings and errors");
+  command->add_flag("--times", options->times, "Show the time that each step took");
+  command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
+  command->footer(
+      "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
+      "The results are the same for any number of threads. Nothing is left behind when a run fails.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace plumb::command

@@ -1,0 +1,78 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace plumb::command {
+namespace {
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(std::abs(value) >= 100 ? 1 : 3) << value;
+  return text.str();
+}
+
+/// Numbers called "STAGE" or "STAGE.NAME" of several measures as one table: a row a stage, a column a measure.
+void print_numbers(std::ostream& out, const RunResult& result) {
+  std::vector<std::string> columns, rows;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  const auto note = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  };
+  for (const MadeMetrics& made : result.metrics) {
+    if (!made.metrics->edges.empty()) continue;  // a solver's account belongs into metrics.json
+    for (const Number& number : made.metrics->numbers) {
+      const auto dot = number.name.find('.');
+      const std::string row = number.name.substr(0, dot);
+      std::string column = made.path + (dot == std::string::npos ? "" : "." + number.name.substr(dot + 1));
+      if (!number.unit.empty()) column += " [" + number.unit + "]";
+      note(rows, row);
+      note(columns, column);
+      cells[{row, column}] = rounded(number.value);
+    }
+  }
+  if (rows.empty()) return;
+  std::size_t first = 0;
+  for (const auto& row : rows) first = std::max(first, row.size());
+  out << "\n" << std::string(first, ' ');
+  for (const auto& column : columns) out << "  " << column;
+  out << "\n";
+  for (const auto& row : rows) {
+    out << std::left << std::setw(static_cast<int>(first)) << row;
+    for (const auto& column : columns) {
+      const auto at = cells.find({row, column});
+      out << "  " << std::right << std::setw(static_cast<int>(column.size())) << (at == cells.end() ? "-" : at->second);
+    }
+    out << "\n";
+  }
+}
+
+void print_times(std::ostream& out, const RunResult& result) {
+  out << "\nCPU seconds of each step (items made, items remembered)\n";
+  for (const StepTime& time : result.times)
+    out << "  " << std::left << std::setw(28) << time.path << std::right << std::fixed << std::setprecision(2) << std::setw(9)
+        << time.cpu_seconds << "  (" << time.items << ", " << time.remembered << ")\n";
+}
+
+}  // namespace
+
+void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
+                   bool times) {
+  print_numbers(out, result);
+  out << "\n";
+  for (const LoopEnd& loop : result.loops)
+    out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
+  for (const std::string& count : result.counts) out << "counted: " << count << "\n";
+  for (const std::string& warning : result.warnings) out << "weak: " << warning << "\n";
+  for (const MadeMetrics& made : result.metrics)
+    for (const std::string& sentence : made.metrics->notes) out << "weak: " << made.path << ": " << sentence << "\n";
+  if (times) print_times(out, result);
+  out << plan.name << ": " << std::fixed << std::setprecision(1) << result.seconds << " s, " << std::setprecision(2)
+      << static_cast<double>(result.peak_bytes) / (1 << 30) << " GiB at most\n";
+  out << "in " << folder.string() << ":";
+  for (const MadeDocument& made : result.documents) out << " " << made.document->name;
+  out << " run.lock.yaml\n";
+}
+
+}  // namespace plumb::command

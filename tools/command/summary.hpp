@@ -1,0 +1,15 @@
+#pragma once
+/// What `plumb run` prints at the end.
+
+#include <filesystem>
+#include <ostream>
+
+#include "plumb/engine/runner.hpp"
+
+namespace plumb::command {
+
+/// A table of the numbers that the measures gave, what is weak, how loops ended, where the files are; with `times` what each step took.
+void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
+                   bool times);
+
+}  // namespace plumb::command

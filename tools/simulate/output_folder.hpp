@@ -1,0 +1,29 @@
+#pragma once
+/// A folder that appears whole or not at all.
+
+#include <filesystem>
+#include <string>
+
+namespace plumb::simulate {
+
+/// Written beside its place, then renamed. Destroyed before `finish`, it leaves nothing behind.
+class OutputFolder {
+ public:
+  /// Throws Error where `place` exists and is neither empty nor an earlier simulation, or cannot be
+  /// made.
+  explicit OutputFolder(const std::filesystem::path& place);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  /// Writes a file; from any number of threads. Throws Error when the disk does not take it.
+  void write(const std::filesystem::path& relative, const std::string& bytes) const;
+
+  /// Moves the folder to its place, in which an earlier simulation is replaced.
+  void finish();
+
+ private:
+  std::filesystem::path place_, beside_;
+};
+
+}  // namespace plumb::simulate

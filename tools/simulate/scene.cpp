@@ -1,0 +1,156 @@
+#include "simulate/scene.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "plumb/data/error.hpp"
+#include "simulate/names.hpp"
+#include "simulate/route.hpp"
+
+namespace plumb::simulate {
+namespace {
+
+constexpr double usual_speed = 10;  // [m/s]
+
+double usual_length(const std::string& route) { return route == "blocks" ? 2900 : 1000; }
+
+/// The number at the start of `text`, which is cut off it together with the blanks behind.
+double take_number(std::string& text, const std::string& place) {
+  double value = 0;
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value))
+    throw Error(place + ": '" + text + "' is no number; write for example 2.5");
+  text.erase(0, static_cast<std::size_t>(end - text.data()));
+  text.erase(0, text.find_first_not_of(' ') == std::string::npos ? text.size()
+                                                                 : text.find_first_not_of(' '));
+  return value;
+}
+
+double parse(const Option& option, std::string text, bool bare_is_si, const std::string& place) {
+  const std::string whole = text;
+  double value = take_number(text, place);
+  const bool wants_unit = option.quantity != Quantity::none;
+  if (text.empty() && wants_unit && !bare_is_si)
+    throw Error(place + ": '" + whole +
+                "' lacks its unit; write one of: " + known_units(option.quantity));
+  if (!text.empty()) {
+    const Unit* unit = find_unit(text);
+    if (!wants_unit || !unit || unit->quantity != option.quantity)
+      throw Error(place + ": '" + whole + "' ends in '" + text + "'; " +
+                  (wants_unit ? "write one of: " + known_units(option.quantity)
+                              : "write a number without unit"));
+    value *= unit->factor;
+  }
+  if (value < option.low || value > option.high)
+    throw Error(place + ": " + whole + " is out of range; allowed is " +
+                written(option.low, option.quantity) + " to " +
+                written(option.high, option.quantity));
+  return value;
+}
+
+std::int64_t parse_whole(const Option& option, const std::string& text, const std::string& place) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Error(place + ": '" + text + "' is no whole number; write for example 64");
+  if (static_cast<double>(value) < option.low || static_cast<double>(value) > option.high)
+    throw Error(place + ": " + text + " is out of range; allowed is " + shortest(option.low) +
+                " to " + shortest(option.high));
+  return value;
+}
+
+}  // namespace
+
+const std::vector<Option>& options() {
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  static const std::vector<Option> all = {
+      {"path",
+       "route to drive (city_loop, figure_eight, out_and_back, blocks) or a TUM file of poses to "
+       "scan from",
+       Quantity::none, 0, 0, &Scene::path},
+      {"frames", "number of frames; of a TUM file the first so many", Quantity::none, 2, 1e7,
+       &Scene::frames},
+      {"length", "length of the drive", Quantity::length, 1, 1e6, &Scene::length},
+      {"speed", "speed of the drive; 10 m/s if neither frames nor length say otherwise",
+       Quantity::speed, 0.01, 100, &Scene::speed},
+      {"rate", "turns of the scanner a second", Quantity::frequency, 0.1, 1000, &Scene::rate},
+      {"lines", "lines of the scanner", Quantity::none, 1, 1024, &Scene::lines},
+      {"columns", "directions a turn of each line", Quantity::none, 4, 16384, &Scene::columns},
+      {"lowest", "elevation of the lowest line", Quantity::angle, -right_angle, right_angle,
+       &Scene::lowest},
+      {"highest", "elevation of the highest line", Quantity::angle, -right_angle, right_angle,
+       &Scene::highest},
+      {"noise", "standard deviation of a range", Quantity::length, 0, 1, &Scene::noise},
+      {"range", "greatest range", Quantity::length, 1, 1000, &Scene::range},
+      {"height", "height of the sensor above the ground", Quantity::length, 0.1, 10,
+       &Scene::height},
+      {"street_width", "distance between houses where one lane is driven", Quantity::length, 8, 100,
+       &Scene::street_width},
+      {"drift", "greatest position error of the odometry; 10 m for 2.9 km if not given",
+       Quantity::length, 0, 1e4, &Scene::drift},
+      {"seed", "picks the city, the noise and the drift: the same seed, the same bytes",
+       Quantity::none, 0, 9007199254740992.0, &Scene::seed},
+  };
+  return all;
+}
+
+void set(Scene& scene, const Option& option, const std::string& text, bool bare_is_si,
+         const std::string& place) {
+  const auto into = [&](auto member) {
+    auto& value = scene.*member;
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, std::string>) {
+      if (text.empty())
+        throw Error(place + ": is empty; name one of: " + suggestion("", route_names()));
+      value = text;
+    } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) {
+      value = parse(option, text, bare_is_si, place);
+    } else {
+      value = parse_whole(option, text, place);
+    }
+  };
+  std::visit(into, option.field);
+}
+
+double usual_drift(double length) { return length * (10.0 / 2900.0); }
+
+bool follows_file(const Scene& scene) {
+  const auto& names = route_names();
+  return std::find(names.begin(), names.end(), scene.path) == names.end();
+}
+
+Scene settled(Scene scene) {
+  if (scene.highest < scene.lowest)
+    throw Error("scene: the highest line lies below the lowest; exchange the two angles");
+  const bool transplant = !scene.drift_odometry.empty();
+  if (transplant && scene.drift)
+    throw Error(
+        "scene: 'drift' and 'drift_from' are both given, and the drift can be one only; leave one "
+        "of them out");
+  if (follows_file(scene)) {
+    if (scene.length || scene.speed)
+      throw Error("scene: the path '" + scene.path +
+                  "' is a file, whose poses are taken as they are; leave 'length' and 'speed' out "
+                  "('frames' takes the first "
+                  "so many)");
+    return scene;
+  }
+  if (scene.frames && scene.length && scene.speed)
+    throw Error(
+        "scene: of 'frames', 'length' and 'speed' two say the third; leave one of them out");
+  if (!scene.length)
+    scene.length = scene.frames ? scene.speed.value_or(usual_speed) / scene.rate *
+                                      static_cast<double>(*scene.frames - 1)
+                                : usual_length(scene.path);
+  if (!scene.frames)
+    scene.frames = std::max<std::int64_t>(
+        2, std::llround(*scene.length * scene.rate / scene.speed.value_or(usual_speed)) + 1);
+  scene.speed.reset();
+  if (!transplant && !scene.drift) scene.drift = usual_drift(*scene.length);
+  return scene;
+}
+
+}  // namespace plumb::simulate
