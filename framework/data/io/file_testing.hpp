@@ -27,6 +27,7 @@ class TestFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
     std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::remove(path_ / name);  // to truncate a file may wait for the disk
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return path_ / name;
   }
