@@ -1,0 +1,110 @@
+#include "plumb/engine/runner.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "plumb/data/error.hpp"
+#include "plumb/engine/test_steps.hpp"
+#include "plumb/pipeline/reader.hpp"
+
+namespace plumb {
+namespace {
+
+using engine_test::frames_opened, engine_test::pairs_made, engine_test::shifted_made;
+using testing::HasSubstr;
+
+const char* const cascade = R"(plumb: 1
+name: cascade
+about: a loop that halves
+steps:
+  source: {use: test.source}
+  kept: {use: test.keep, from: source.frames}
+  merged: {use: test.merge, from: {frames: kept, ranges: source.ranges}}
+  edges: {use: test.chain, from: merged}
+  loop:
+    repeat:
+      passes: {gate: [4 m, 2 m, 1 m]}
+      carry: {poses: solved}
+    start: {poses: source.poses}
+    steps:
+      pairs: {use: test.pair, from: {edges: edges, segments: merged}}
+      near: {use: test.shift, from: {matches: pairs, poses: poses, edges: edges}, with: {gate: $gate}}
+      solved: {use: test.halve, from: {matches: near, poses: poses}}
+  sums: {use: test.sum, from: kept}
+  out: {use: test.write, from: {metrics: {last: loop.solved.metrics, sums: sums}}}
+)";
+
+struct Engine : testing::Test {
+  Registry steps = engine_test::registry();
+  std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("plumb_engine_" + std::to_string(getpid()) + ".yaml");
+
+  Engine() { frames_opened = pairs_made = shifted_made = 0; }
+  ~Engine() override { std::filesystem::remove(file); }
+
+  RunResult run(const std::string& yaml, std::vector<std::string> sets = {}, unsigned threads = 2) {
+    std::ofstream(file) << yaml;
+    Overlay overlay;
+    overlay.sets = std::move(sets);
+    const Plan plan = read_pipeline(file, overlay, steps);
+    Observer silent;
+    RunOptions options;
+    options.threads = threads;
+    return run_plan(plan, steps, options, silent);
+  }
+};
+
+TEST_F(Engine, RunsACascadeAndCarriesPosesFromPassToPass) {
+  const RunResult result = run(cascade);
+  ASSERT_EQ(result.documents.size(), 1u);
+  // Four segments 24 m apart: 3 edges of 24, then 12, then 6 m; gates 4, 2, 1. The fold: sum of 2^(11-k) k for k = 0..11.
+  EXPECT_EQ(result.documents[0].document->bytes, "last gap=18 gates=3\nsums sum=4083 frames=12\n");
+  ASSERT_EQ(result.loops.size(), 1u);
+  EXPECT_EQ(result.loops[0].passes, 3);
+}
+
+TEST_F(Engine, MakesWhatDoesNotSeePosesOnceForAllPasses) {
+  run(cascade);
+  EXPECT_EQ(pairs_made, 3);
+  EXPECT_EQ(shifted_made, 9);
+}
+
+TEST_F(Engine, OpensEachFrameOnceForEachWhoTakesIt) {
+  run(cascade);
+  EXPECT_EQ(frames_opened, 24);  // merging and the fold
+}
+
+TEST_F(Engine, SumsCountsOverItems) {
+  EXPECT_THAT(run(cascade).counts, testing::ElementsAre("kept: 24 frames seen"));
+}
+
+TEST_F(Engine, GivesTheSameBytesForOneAndForTwoThreads) {
+  EXPECT_EQ(run(cascade, {}, 1).documents[0].document->bytes, run(cascade, {}, 2).documents[0].document->bytes);
+}
+
+TEST_F(Engine, RepeatsTheLastColumnUntilTheConditionHolds) {
+  std::string yaml = cascade;
+  yaml.replace(yaml.find("    start:"), 0, "      until: {all: [{metric: solved.gap, below: 1.5 m}]}\n      at_most: 9\n");
+  const RunResult result = run(yaml);
+  EXPECT_EQ(result.loops[0].passes, 7);  // 72, 36, 18, 9, 4.5, 2.25, 1.125
+  EXPECT_THAT(result.loops[0].why, HasSubstr("1.125"));
+  EXPECT_THAT(result.documents[0].document->bytes, HasSubstr("gates=3"));
+}
+
+TEST_F(Engine, NamesTheStepAndTheFirstItemThatFails) {
+  try {
+    run(cascade, {"kept.refuse=4"}, 1);
+    FAIL() << "was not refused";
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "step 'kept' (test.keep), frame 4: will not");
+  }
+}
+
+TEST_F(Engine, ChangedRowsReachTheirSteps) {
+  EXPECT_THAT(run(cascade, {"loop.gate=7m,5m"}).documents[0].document->bytes, HasSubstr("gap=36 gates=15"));
+}
+
+}  // namespace
+}  // namespace plumb

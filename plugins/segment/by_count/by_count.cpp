@@ -1,0 +1,12 @@
+#include "by_count.hpp"
+
+namespace plumb {
+
+std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_segment) {
+  std::vector<std::size_t> starts;
+  for (std::size_t first = 0; first < frames; first += per_segment) starts.push_back(first);
+  if (starts.size() > 1 && 2 * (frames - starts.back()) < per_segment) starts.pop_back();
+  return starts;
+}
+
+}  // namespace plumb

@@ -1,0 +1,43 @@
+#include "by_count.hpp"
+#include "plumb/data/range.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct ByCount : WholeStep {
+  struct In {
+    One<Trajectory> trajectory;
+  };
+  struct Out {
+    std::vector<Range> ranges;
+    Poses poses;
+  };
+  struct Params {
+    std::uint32_t frames = 60;
+  };
+
+  static void describe(Declaration<ByCount>& is) {
+    is.name("segment.by_count").version(1).source("[Tang2024] 2.2");
+    is.summary("Cuts the trajectory into segments of an equal number of frames.");
+    is.input("trajectory", &In::trajectory, "the poses of all frames");
+    is.output("ranges", &Out::ranges, "the frames of each segment");
+    is.output("poses", &Out::poses, "where each segment is: the pose of its middle frame");
+    is.param("frames", &Params::frames)
+        .range(1, 65535)
+        .doc("frames a segment")
+        .source("[Tang2024] 3.1");
+  }
+
+  Out run(const In& in, const Params& params, Context&) const {
+    Out out;
+    out.ranges = ranges_from(*in.trajectory, starts_by_count(in.trajectory->size(), params.frames));
+    out.poses = poses_of(out.ranges);
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::ByCount)

@@ -1,0 +1,123 @@
+#include "merge.hpp"
+
+#include <gmock/gmock.h>
+
+#include "plumb/plugin/context.hpp"
+
+namespace plumb {
+namespace {
+
+using testing::ElementsAre;
+
+/// Random points round the sensor, with every array that a cloud can have.
+Cloud scan(std::uint64_t seed, std::size_t n) {
+  Random random(seed);
+  const auto number = [&] { return static_cast<float>(100 * random.uniform() - 50); };
+  Cloud cloud;
+  for (std::size_t k = 0; k < n; ++k) {
+    cloud.add({number(), number(), number()});
+    const Eigen::Vector3f normal = Eigen::Vector3f(number(), number(), number()).normalized();
+    cloud.nx.push_back(normal.x());
+    cloud.ny.push_back(normal.y());
+    cloud.nz.push_back(normal.z());
+    cloud.intensity.push_back(number());
+    cloud.time.push_back(number());
+    cloud.ring.push_back(static_cast<std::uint16_t>(random.below(64)));
+  }
+  return cloud;
+}
+
+struct Merged {
+  Range range;
+  std::vector<Frame> frames;
+  std::vector<std::size_t> opened;
+
+  explicit Merged(std::vector<Cloud> clouds) {
+    range.first = 100;
+    range.end = 100 + static_cast<std::uint32_t>(clouds.size());
+    for (std::size_t k = 0; k < clouds.size(); ++k) {
+      const double s = static_cast<double>(k);
+      range.T_segment_frame.push_back({exp_rotation({0.3 * s, -0.1, 0.2}), {s, 10 * s, -1}});
+      frames.push_back({100 + static_cast<std::uint32_t>(k), std::move(clouds[k])});
+    }
+  }
+  Segment segment() {
+    return merge(range, [&](std::size_t k) {
+      opened.push_back(k);
+      return std::make_shared<const Frame>(frames[k]);
+    });
+  }
+};
+
+TEST(SegmentMerge, MovesEveryPointByItsFramesPoseAndKeepsTheOrder) {
+  Merged merged({scan(1, 50), scan(2, 30), scan(3, 70)});
+  const Segment segment = merged.segment();
+  ASSERT_EQ(segment.cloud.size(), 150u);
+  ASSERT_EQ(segment.frame.size(), 150u);
+  std::size_t at = 0;
+  for (std::size_t f = 0; f < 3; ++f) {
+    const Cloud& cloud = merged.frames[f].cloud;
+    const Pose& pose = merged.range.T_segment_frame[f];
+    for (std::size_t k = 0; k < cloud.size(); ++k, ++at) {
+      EXPECT_EQ(segment.frame[at], f);
+      EXPECT_LT(
+          (segment.cloud.point(at) - (pose * cloud.point(k).cast<double>()).cast<float>()).norm(),
+          3e-5);
+      EXPECT_LT((segment.cloud.normal(at) -
+                 (pose.rotation * cloud.normal(k).cast<double>()).cast<float>())
+                    .norm(),
+                1e-6);
+      EXPECT_EQ(segment.cloud.intensity[at], cloud.intensity[k]);
+      EXPECT_EQ(segment.cloud.time[at], cloud.time[k]);
+      EXPECT_EQ(segment.cloud.ring[at], cloud.ring[k]);
+    }
+  }
+}
+
+TEST(SegmentMerge, OpensEachFrameOnceAndInOrder) {
+  Merged merged({scan(1, 5), scan(2, 5), scan(3, 5)});
+  merged.segment();
+  EXPECT_THAT(merged.opened, ElementsAre(0, 1, 2));
+}
+
+TEST(SegmentMerge, DropsArraysThatSomeFrameLacks) {
+  Merged merged({scan(1, 5), scan(2, 5), scan(3, 5)});
+  merged.frames[1].cloud.intensity.clear();
+  merged.frames[2].cloud.nx.clear();
+  merged.frames[0].cloud.ring.clear();
+  const Segment segment = merged.segment();
+  EXPECT_EQ(segment.cloud.size(), 15u);
+  EXPECT_TRUE(segment.cloud.intensity.empty());
+  EXPECT_TRUE(segment.cloud.ring.empty());
+  EXPECT_FALSE(segment.cloud.has_normals());
+  EXPECT_TRUE(segment.cloud.nz.empty());
+  EXPECT_EQ(segment.cloud.time.size(), 15u);
+}
+
+TEST(SegmentMerge, LosesNothingToAFrameWithoutPoints) {
+  Merged merged({Cloud(), scan(2, 5), Cloud(), scan(3, 4)});
+  const Segment segment = merged.segment();
+  EXPECT_EQ(segment.cloud.intensity.size(), 9u);
+  EXPECT_TRUE(segment.cloud.has_normals());
+  EXPECT_THAT(segment.frame, ElementsAre(1, 1, 1, 1, 1, 3, 3, 3, 3));
+}
+
+TEST(SegmentMerge, KnowsItsRangeItsCentroidAndItsBox) {
+  Merged merged({scan(1, 40), scan(2, 40)});
+  const Segment segment = merged.segment();
+  EXPECT_EQ(segment.range.first, 100u);
+  EXPECT_EQ(segment.range.size(), 2u);
+  EXPECT_LT((segment.centroid - centroid_of(segment.cloud)).norm(), 1e-6);
+  EXPECT_EQ(segment.box.low, box_of(segment.cloud).low);
+  EXPECT_EQ(segment.origin(79), merged.range.T_segment_frame[1].translation.cast<float>());
+}
+
+TEST(SegmentMerge, MakesAnEmptySegmentOfEmptyFrames) {
+  Merged merged({Cloud(), Cloud()});
+  const Segment segment = merged.segment();
+  EXPECT_TRUE(segment.cloud.empty());
+  EXPECT_TRUE(segment.box.empty());
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,40 @@
+#include "merge.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct Merge : SegmentStep {
+  struct In {
+    Each<Frame> frames;
+    One<Range> ranges;
+  };
+  struct Out {
+    Segment segment;
+  };
+  struct Params {};
+
+  static void describe(Declaration<Merge>& is) {
+    is.name("segment.merge").version(1).source("[Tang2024] 2.2");
+    is.summary("Merges the frames of a segment by their poses into one rigid cloud.");
+    is.input("frames", &In::frames, "the segment's own frames, in order");
+    is.input("ranges", &In::ranges, "which frames they are, and where they stand in the segment");
+    is.output("segment", &Out::segment, "all their points in the segment's coordinates");
+  }
+
+  Out run(const In& in, const Params&, Context& context) const {
+    if (in.frames.size() != in.ranges->size())
+      throw Error("the segment from frame " + std::to_string(in.ranges->first) + " has " +
+                  std::to_string(in.ranges->size()) + " frames, but " +
+                  std::to_string(in.frames.size()) +
+                  " came in: wire frames and ranges of the same sequence");
+    Out out{merge(*in.ranges, [&](std::size_t k) { return in.frames.open(k).shared(); })};
+    if (out.segment.cloud.empty()) context.count("segments without any point", 1);
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::Merge)
