@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t longest_chain = 16;
 constexpr std::uintmax_t largest_file = 4 << 20;
 
-std::optional<std::string> text_of(const fs::path& file, const Origin& asked, Diagnostics& diagnostics) {
+std::optional<std::string> text_of(const fs::path& file, const Origin& asked,
+                                   Diagnostics& diagnostics) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     diagnostics.add(asked, "there is no file '" + file.string() + "'.");
@@ -19,7 +20,9 @@ std::optional<std::string> text_of(const fs::path& file, const Origin& asked, Di
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream || fs::file_size(file, error) > largest_file) {
-    diagnostics.add(asked, "'" + file.string() + (stream ? "' is larger than any pipeline (4 MiB)." : "' cannot be opened."));
+    diagnostics.add(
+        asked, "'" + file.string() +
+                   (stream ? "' is larger than any pipeline (4 MiB)." : "' cannot be opened."));
     return std::nullopt;
   }
   std::ostringstream text;
@@ -28,10 +31,13 @@ std::optional<std::string> text_of(const fs::path& file, const Origin& asked, Di
 }
 
 /// Appends `file` after what it extends. False when something cannot be read.
-bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& open, Chain& chain, Diagnostics& diagnostics) {
+bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& open, Chain& chain,
+            Diagnostics& diagnostics) {
   const fs::path canonical = fs::weakly_canonical(file);
-  if (std::find(open.begin(), open.end(), canonical) != open.end() || open.size() >= longest_chain) {
-    diagnostics.add(asked, "'" + file.string() + "' extends itself, or the chain is longer than 16 files.");
+  if (std::find(open.begin(), open.end(), canonical) != open.end() ||
+      open.size() >= longest_chain) {
+    diagnostics.add(
+        asked, "'" + file.string() + "' extends itself, or the chain is longer than 16 files.");
     return false;
   }
   open.push_back(canonical);
@@ -40,7 +46,8 @@ bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& op
   auto tree = parse_yaml(*text, file.string(), diagnostics);
   if (!tree) return false;
   if (!tree->is_map()) {
-    diagnostics.add(tree->origin, "expected a map with 'plumb: 1' and 'steps', found " + tree->shown() + ".");
+    diagnostics.add(tree->origin,
+                    "expected a map with 'plumb: 1' and 'steps', found " + tree->shown() + ".");
     return false;
   }
   if (const Node* base = tree->at("extends")) {
@@ -60,19 +67,21 @@ bool applied(const std::vector<fs::path>& done, const fs::path& file) {
 }
 
 /// Lays over what of a preset's chain is not there yet.
-void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done, std::vector<std::string>& files,
-           Diagnostics& diagnostics) {
+void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
+           std::vector<std::string>& files, Diagnostics& diagnostics) {
   const Chain chain = read_chain(preset, diagnostics);
   if (chain.links.empty()) return;
   const Origin origin{chain.links.back().file, 1, 1};
   if (chain.links.size() == 1) {
     diagnostics.add(origin, "a preset extends a pipeline, and this file extends none.",
-                    "Write 'extends: " + files.front() + "' (relative to the preset), or run the file by itself.");
+                    "Write 'extends: " + files.front() +
+                        "' (relative to the preset), or run the file by itself.");
     return;
   }
   if (!applied(done, chain.links.front().canonical)) {
     diagnostics.add(chain.links[1].tree.at("extends")->origin,
-                    "this preset extends '" + chain.links.front().file + "', not the pipeline '" + files.front() + "'.");
+                    "this preset extends '" + chain.links.front().file + "', not the pipeline '" +
+                        files.front() + "'.");
     return;
   }
   for (const auto& link : chain.links) {
@@ -88,12 +97,13 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done, 
 Chain read_chain(const fs::path& file, Diagnostics& diagnostics) {
   Chain chain;
   std::vector<fs::path> open;
-  if (!follow(file.lexically_normal(), {file.string(), 0, 0}, open, chain, diagnostics)) chain.links.clear();
+  if (!follow(file.lexically_normal(), {file.string(), 0, 0}, open, chain, diagnostics))
+    chain.links.clear();
   return chain;
 }
 
-std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay, Diagnostics& diagnostics,
-                                  std::vector<std::string>& files) {
+std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay,
+                                  Diagnostics& diagnostics, std::vector<std::string>& files) {
   Chain chain = read_chain(file, diagnostics);
   if (chain.links.empty()) return std::nullopt;
   Node pipeline = chain.links.front().tree;

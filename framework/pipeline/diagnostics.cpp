@@ -39,12 +39,14 @@ std::string excerpt_of(const std::string& line, int number, int column) {
   std::string below;
   for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(column) && k < line.size(); ++k) {
     const auto byte = static_cast<unsigned char>(line[k]);
-    if (byte == '\t') below += '\t';
-    else if ((byte & 0xC0) != 0x80) below += ' ';  // one blank per character, not per byte
+    if (byte == '\t')
+      below += '\t';
+    else if ((byte & 0xC0) != 0x80)
+      below += ' ';  // one blank per character, not per byte
   }
   if (line.size() > longest && static_cast<std::size_t>(column) > longest) return "";
-  return "  " + margin + " | " + line.substr(0, longest) + "\n  " + std::string(margin.size(), ' ') + " | " +
-         below + "^";
+  return "  " + margin + " | " + line.substr(0, longest) + "\n  " +
+         std::string(margin.size(), ' ') + " | " + below + "^";
 }
 
 }  // namespace
@@ -96,7 +98,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t j = 0; j <= b.size(); ++j) at(0, j) = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      at(i, j) = std::min({at(i - 1, j) + 1, at(i, j - 1) + 1, at(i - 1, j - 1) + (a[i - 1] != b[j - 1])});
+      at(i, j) =
+          std::min({at(i - 1, j) + 1, at(i, j - 1) + 1, at(i - 1, j - 1) + (a[i - 1] != b[j - 1])});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         at(i, j) = std::min(at(i, j), at(i - 2, j - 2) + 1);
     }
@@ -130,7 +133,8 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   const std::string near = nearest(name, known);
   std::string text = near.empty() ? "" : "Did you mean '" + near + "'?";
   if (known.empty()) return text;
-  if (known.size() <= readable) text += (text.empty() ? "Known: " : "  Known: ") + joined(known) + ".";
+  if (known.size() <= readable)
+    text += (text.empty() ? "Known: " : "  Known: ") + joined(known) + ".";
   return text;
 }
 

@@ -16,13 +16,15 @@ struct Diagnostic {
   Origin origin;
   std::string sentence;  ///< "step 'thin' (filter.voxel_grid): unknown parameter 'laef'."
   std::string excerpt;   ///< the source line and a caret; empty for command-line options
-  std::string hint;      ///< "Did you mean 'leaf' [length, 0.01 m to 100 m]?  Known: leaf."; may be empty
+  std::string
+      hint;  ///< "Did you mean 'leaf' [length, 0.01 m to 100 m]?  Known: leaf."; may be empty
 
   /// "file:line:col: sentence", the excerpt and the hint, each on lines of their own.
   std::string text() const;
 };
 
-/// A pipeline that does not hold together. `what()` is the text of every diagnostic, in the order of the files and lines.
+/// A pipeline that does not hold together. `what()` is the text of every diagnostic, in the order
+/// of the files and lines.
 class PipelineError : public Error {
  public:
   explicit PipelineError(std::vector<Diagnostic> diagnostics);
@@ -51,10 +53,12 @@ class Diagnostics {
   std::vector<Diagnostic> list_;
 };
 
-/// The known name nearest to `name` by edit distance (a swap of neighbours counts one); empty when none is near.
+/// The known name nearest to `name` by edit distance (a swap of neighbours counts one); empty when
+/// none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& known);
 
-/// "Did you mean 'leaf'?  Known: leaf, cap." The second part only while the list is short enough to read.
+/// "Did you mean 'leaf'?  Known: leaf, cap." The second part only while the list is short enough to
+/// read.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
 /// "a, b, c".

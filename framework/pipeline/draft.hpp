@@ -1,5 +1,6 @@
 #pragma once
-/// A pipeline in the making: the tree, the names in it, and the Plan as far as it is known. Each pass over it is one file.
+/// A pipeline in the making: the tree, the names in it, and the Plan as far as it is known. Each
+/// pass over it is one file.
 
 #include <map>
 #include <optional>
@@ -14,22 +15,23 @@ namespace plumb::pipeline {
 struct Symbol {
   enum class Kind { step, group, repeat, carry };
   Kind kind = Kind::step;
-  int index = -1;  ///< of the step; of the group's scope; of the repeat; of the carry in its scope's repeat
+  int index =
+      -1;  ///< of the step; of the group's scope; of the repeat; of the carry in its scope's repeat
   Origin origin;
 };
 
 /// Names that are looked up together: of the whole pipeline, of a group, of a repeat's body.
 struct Scope {
-  std::string path;   ///< "" for the pipeline
+  std::string path;  ///< "" for the pipeline
   int parent = -1;
-  int repeat = -1;    ///< the innermost repeat whose body this lies in
+  int repeat = -1;  ///< the innermost repeat whose body this lies in
   std::map<std::string, Symbol, std::less<>> names;
 };
 
 struct DraftStep {
   const Node* node = nullptr;
   int scope = -1, repeat = -1;
-  int sequence = 0;   ///< in the order written
+  int sequence = 0;  ///< in the order written
   bool used = false;
 };
 
@@ -48,12 +50,14 @@ struct DraftCarry {
   const Node* start = nullptr;
   const Node* next = nullptr;
   bool used = false, found = false;
-  std::vector<std::pair<Source, Source>> pairs;  ///< start and next of one type each; the first user picks
+  std::vector<std::pair<Source, Source>>
+      pairs;  ///< start and next of one type each; the first user picks
   const Type* chosen = nullptr;
 };
 struct DraftRepeat {
   const Node* node = nullptr;
-  int scope = -1, body = -1, parent = -1;  ///< scope it stands in, scope of its body, repeat around it
+  int scope = -1, body = -1,
+      parent = -1;  ///< scope it stands in, scope of its body, repeat around it
   int sequence = 0;
   std::vector<DraftRow> rows;
   std::vector<DraftCarry> carries;
@@ -90,16 +94,20 @@ struct Draft {
 };
 
 /// Reports keys that are not `known`; false when `node` is no map.
-bool check_keys(Draft& draft, const Node& node, const std::string& what, const std::vector<std::string>& known);
+bool check_keys(Draft& draft, const Node& node, const std::string& what,
+                const std::vector<std::string>& known);
 
-/// The value that `node` writes, or refers to by $name: a pipeline parameter, or a row of the repeats around (then `planned`
-/// gets the row). Faults are told as "PLACE: ...".
-std::optional<ParameterValue> value_of(Draft& draft, const std::string& place, const ParameterDescription& parameter,
-                                       const Node& node, int repeat, PlannedParameter* planned);
+/// The value that `node` writes, or refers to by $name: a pipeline parameter, or a row of the
+/// repeats around (then `planned` gets the row). Faults are told as "PLACE: ...".
+std::optional<ParameterValue> value_of(Draft& draft, const std::string& place,
+                                       const ParameterDescription& parameter, const Node& node,
+                                       int repeat, PlannedParameter* planned);
 
-/// The outputs that a reference from `scope` may mean; nothing when it is wrong (told) or leads to an unknown step.
+/// The outputs that a reference from `scope` may mean; nothing when it is wrong (told) or leads to
+/// an unknown step.
 std::optional<std::vector<Source>> sources_of(Draft& draft, int scope, const Node& reference);
-/// Marks a source as used, and settles the type of what a repeat carries. False when it cannot be (told).
+/// Marks a source as used, and settles the type of what a repeat carries. False when it cannot be
+/// (told).
 bool choose(Draft& draft, const Source& source);
 /// What a source is, for sentences: "Features, one per segment".
 std::string kind_of(const Type& type, Grain grain);

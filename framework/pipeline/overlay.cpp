@@ -10,8 +10,10 @@ namespace {
 std::vector<std::string> parts_of(const std::string& path, char between) {
   std::vector<std::string> parts(1);
   for (const char c : path) {
-    if (c == between) parts.emplace_back();
-    else parts.back() += c;
+    if (c == between)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -24,7 +26,8 @@ class Finder {
   Finder(Node& pipeline, const Origin& origin, Diagnostics& diagnostics)
       : pipeline_(pipeline), origin_(origin), diagnostics_(diagnostics) {}
 
-  /// The map of steps that holds the last name of `path`, which need not be there if `fresh`; null with a diagnostic.
+  /// The map of steps that holds the last name of `path`, which need not be there if `fresh`; null
+  /// with a diagnostic.
   Node* scope(const std::string& path, bool fresh) {
     const auto parts = parts_of(path, '.');
     Node* steps = pipeline_.at("steps");
@@ -39,7 +42,8 @@ class Finder {
     return nullptr;
   }
 
-  /// Puts a value at a parameter, a row or a step's parameter. Text of the command line is cut at commas for a row.
+  /// Puts a value at a parameter, a row or a step's parameter. Text of the command line is cut at
+  /// commas for a row.
   void set(const std::string& path, Node value, bool cut) {
     const auto parts = parts_of(path, '.');
     if (parts.size() == 1) return set_parameter(path, std::move(value));
@@ -58,37 +62,43 @@ class Finder {
                       : set_step(*at, walked, parts.back(), rows, std::move(value));
       }
       if (repeat && repeat->at("passes"))
-        for (const std::string& row : repeat->at("passes")->keys()) rows.push_back(walked + "." + row);
+        for (const std::string& row : repeat->at("passes")->keys())
+          rows.push_back(walked + "." + row);
       steps = at->at("steps");
     }
     not_settable(path);
   }
 
  private:
-  Node* lost(const std::string& path, const std::vector<std::string>& parts, std::size_t k, std::vector<std::string> known) {
+  Node* lost(const std::string& path, const std::vector<std::string>& parts, std::size_t k,
+             std::vector<std::string> known) {
     std::string walked;
     for (std::size_t n = 0; n < k; ++n) walked += (n ? "." : "") + parts[n];
-    diagnostics_.add(origin_, "'" + path + "': there is no '" + parts[k] + "' in " +
-                                  (walked.empty() ? "the pipeline" : "'" + walked + "'") + ".",
+    diagnostics_.add(origin_,
+                     "'" + path + "': there is no '" + parts[k] + "' in " +
+                         (walked.empty() ? "the pipeline" : "'" + walked + "'") + ".",
                      did_you_mean(parts[k], known));
     return nullptr;
   }
   void not_settable(const std::string& path) {
     diagnostics_.add(origin_, "'" + path + "' is nothing that can be set.",
-                     "Set a parameter of the pipeline (voxel), a row of a repeat (coarse.gate) or a parameter of a step "
+                     "Set a parameter of the pipeline (voxel), a row of a repeat (coarse.gate) or "
+                     "a parameter of a step "
                      "(coarse.kept.clusters).");
   }
   void set_parameter(const std::string& name, Node value) {
     Node* parameters = pipeline_.at("parameters");
     Node* at = parameters ? parameters->at(name) : nullptr;
     if (!at || !at->is_map()) {
-      diagnostics_.add(origin_, "the pipeline has no parameter '" + name + "'.",
-                       did_you_mean(name, parameters ? parameters->keys() : std::vector<std::string>()));
+      diagnostics_.add(
+          origin_, "the pipeline has no parameter '" + name + "'.",
+          did_you_mean(name, parameters ? parameters->keys() : std::vector<std::string>()));
       return;
     }
     at->put("default", origin_, std::move(value));
   }
-  void set_row(Node& repeat, const std::string& path, const std::string& name, Node value, bool cut) {
+  void set_row(Node& repeat, const std::string& path, const std::string& name, Node value,
+               bool cut) {
     Node* passes = repeat.at("passes");
     if (passes && passes->at(name)) {
       if (cut) value = list_of(value);
@@ -101,9 +111,11 @@ class Finder {
     }
     std::vector<std::string> known = passes ? passes->keys() : std::vector<std::string>();
     known.insert(known.end(), repeat_settings.begin(), repeat_settings.end());
-    diagnostics_.add(origin_, "the repeat '" + path + "' has no row '" + name + "'.", did_you_mean(name, known));
+    diagnostics_.add(origin_, "the repeat '" + path + "' has no row '" + name + "'.",
+                     did_you_mean(name, known));
   }
-  void set_step(Node& step, const std::string& path, const std::string& name, const std::vector<std::string>& rows, Node value) {
+  void set_step(Node& step, const std::string& path, const std::string& name,
+                const std::vector<std::string>& rows, Node value) {
     Node* with = step.at("with");
     if (!with || !with->is_map()) {
       Node empty;
@@ -116,8 +128,10 @@ class Finder {
       const auto reference = reference_in(*old);
       for (auto row = rows.rbegin(); reference && row != rows.rend(); ++row) {
         if (row->substr(row->rfind('.') + 1) != *reference) continue;
-        diagnostics_.add(origin_, "'" + path + "." + name + "' is driven by the row '" + *reference + "' of '" +
-                                      row->substr(0, row->rfind('.')) + "', at " + old->origin.text() + ".",
+        diagnostics_.add(origin_,
+                         "'" + path + "." + name + "' is driven by the row '" + *reference +
+                             "' of '" + row->substr(0, row->rfind('.')) + "', at " +
+                             old->origin.text() + ".",
                          "Set the row instead: " + *row + ".");
         return;
       }
@@ -126,8 +140,10 @@ class Finder {
   }
   Node list_of(const Node& value) const {
     std::string text = value.text;
-    if (text.size() >= 2 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
-    else if (text.find(',') == std::string::npos) return value;
+    if (text.size() >= 2 && text.front() == '[' && text.back() == ']')
+      text = text.substr(1, text.size() - 2);
+    else if (text.find(',') == std::string::npos)
+      return value;
     Node list;
     list.kind = Node::Kind::list;
     list.origin = value.origin;
@@ -149,7 +165,8 @@ class Finder {
 const Node* map_under(const Node& overlay, const char* key, Diagnostics& diagnostics) {
   const Node* node = overlay.at(key);
   if (!node || node->is_map()) return node;
-  diagnostics.add(node->origin, "'" + std::string(key) + "' takes a map, found " + node->shown() + ".");
+  diagnostics.add(node->origin,
+                  "'" + std::string(key) + "' takes a map, found " + node->shown() + ".");
   return nullptr;
 }
 
@@ -157,7 +174,8 @@ void remove_steps(Node& pipeline, const Node& overlay, Diagnostics& diagnostics)
   const Node* paths = overlay.at("remove");
   if (!paths) return;
   if (!paths->is_list())
-    return diagnostics.add(paths->origin, "'remove' takes a list of steps, found " + paths->shown() + ".");
+    return diagnostics.add(paths->origin,
+                           "'remove' takes a list of steps, found " + paths->shown() + ".");
   for (const Node& path : paths->items) {
     if (!path.is_scalar()) {
       diagnostics.add(path.origin, "'remove' takes names of steps, found " + path.shown() + ".");
@@ -171,12 +189,16 @@ void remove_steps(Node& pipeline, const Node& overlay, Diagnostics& diagnostics)
 }  // namespace
 
 void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
-  static const std::vector<std::string> known = {"plumb", "name", "about", "extends", "remove", "replace", "add", "set"};
+  static const std::vector<std::string> known = {"plumb",  "name",    "about", "extends",
+                                                 "remove", "replace", "add",   "set"};
   for (const Entry& entry : overlay.entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
-      diagnostics.add(entry.origin, "an overlay has no key '" + entry.key + "'.", did_you_mean(entry.key, known));
+      diagnostics.add(entry.origin, "an overlay has no key '" + entry.key + "'.",
+                      did_you_mean(entry.key, known));
   const Entry* version = overlay.find("plumb");
-  if (!version) diagnostics.add({overlay.origin.file, 1, 1}, "'plumb: 1' is missing: it says which grammar this file follows.");
+  if (!version)
+    diagnostics.add({overlay.origin.file, 1, 1},
+                    "'plumb: 1' is missing: it says which grammar this file follows.");
   for (const char* key : {"plumb", "name", "about"})
     if (const Entry* entry = overlay.find(key)) pipeline.put(key, entry->origin, entry->value);
 
@@ -190,9 +212,12 @@ void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics
       Node* scope = Finder(pipeline, entry.origin, diagnostics).scope(entry.key, true);
       const std::string name = entry.key.substr(entry.key.rfind('.') + 1);
       if (scope && scope->find(name))
-        diagnostics.add(entry.origin, "'" + entry.key + "' is there already, at " + scope->find(name)->origin.text() + ".",
-                        "Use 'replace'.");
-      else if (scope) scope->put(name, entry.origin, entry.value);
+        diagnostics.add(
+            entry.origin,
+            "'" + entry.key + "' is there already, at " + scope->find(name)->origin.text() + ".",
+            "Use 'replace'.");
+      else if (scope)
+        scope->put(name, entry.origin, entry.value);
     }
   }
   if (const Node* values = map_under(overlay, "set", diagnostics))

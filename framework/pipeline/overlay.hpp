@@ -16,12 +16,14 @@ struct Chain {
   std::vector<Link> links;
 };
 
-/// Reads `file` and, if it extends another, that one too. Empty when one cannot be read; the diagnostic is written.
+/// Reads `file` and, if it extends another, that one too. Empty when one cannot be read; the
+/// diagnostic is written.
 Chain read_chain(const std::filesystem::path& file, Diagnostics& diagnostics);
 
-/// The pipeline as one tree: `file`, what it lays over what it extends, then presets and sets. `files` gets all names.
-std::optional<Node> load_pipeline(const std::filesystem::path& file, const Overlay& overlay, Diagnostics& diagnostics,
-                                  std::vector<std::string>& files);
+/// The pipeline as one tree: `file`, what it lays over what it extends, then presets and sets.
+/// `files` gets all names.
+std::optional<Node> load_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                                  Diagnostics& diagnostics, std::vector<std::string>& files);
 
 /// Applies `remove`, `replace`, `add` and `set` of an overlay's tree, in this order.
 void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics);

@@ -1,19 +1,23 @@
-/// Fills every step's parameters: from `with`, from a row, from the pipeline's parameters, or with the declared default.
+/// Fills every step's parameters: from `with`, from a row, from the pipeline's parameters, or with
+/// the declared default.
 #include "plumb/pipeline/draft.hpp"
 
 namespace plumb::pipeline {
 namespace {
 
-/// Of a step that no module offers: what its values refer to counts as used, so that one mistake does not cause more.
+/// Of a step that no module offers: what its values refer to counts as used, so that one mistake
+/// does not cause more.
 void mark_references(Draft& draft, const Node& node, int repeat) {
   for (const Node& item : node.items) mark_references(draft, item, repeat);
   for (const Entry& entry : node.entries) mark_references(draft, entry.value, repeat);
   const auto name = reference_in(node);
   if (!name) return;
-  if (const auto at = draft.settings.find(*name); at != draft.settings.end()) at->second.used = true;
+  if (const auto at = draft.settings.find(*name); at != draft.settings.end())
+    at->second.used = true;
   for (; repeat >= 0; repeat = draft.repeats[repeat].parent)
     for (std::size_t k = 0; k < draft.repeats[repeat].rows.size(); ++k)
-      if (draft.plan.repeats[repeat].rows[k].name == *name) draft.repeats[repeat].rows[k].used = true;
+      if (draft.plan.repeats[repeat].rows[k].name == *name)
+        draft.repeats[repeat].rows[k].used = true;
 }
 
 void read_step(Draft& draft, int index) {
@@ -21,7 +25,9 @@ void read_step(Draft& draft, int index) {
   const DraftStep& step = draft.steps[index];
   const std::string title = draft.title(index);
   const Node* with = step.node->at("with");
-  if (with && !with->is_map()) draft.fault(with->origin, title + ": 'with' is a map of parameters, found " + with->shown() + ".");
+  if (with && !with->is_map())
+    draft.fault(with->origin,
+                title + ": 'with' is a map of parameters, found " + with->shown() + ".");
   if (!planned.description) {
     if (with) mark_references(draft, *with, step.repeat);
     return;
@@ -32,11 +38,14 @@ void read_step(Draft& draft, int index) {
     PlannedParameter filled;
     filled.value = parameter.standard;
     if (const Node* node = with ? with->at(parameter.name) : nullptr) {
-      const auto value = value_of(draft, title + ": parameter '" + parameter.name + "'", parameter, *node, step.repeat, &filled);
+      const auto value = value_of(draft, title + ": parameter '" + parameter.name + "'", parameter,
+                                  *node, step.repeat, &filled);
       if (value) filled.value = *value;
     } else if (parameter.required) {
-      draft.fault(planned.origin, title + ": parameter '" + parameter.name + "' is missing, " + expected(parameter) + ".",
-                  parameter.doc.empty() ? "" : "It is " + parameter.doc + ".");
+      draft.fault(
+          planned.origin,
+          title + ": parameter '" + parameter.name + "' is missing, " + expected(parameter) + ".",
+          parameter.doc.empty() ? "" : "It is " + parameter.doc + ".");
     }
     planned.parameters.push_back(std::move(filled));
   }
@@ -44,7 +53,10 @@ void read_step(Draft& draft, int index) {
   for (const Entry& entry : with->entries) {
     if (planned.description->parameter(entry.key)) continue;
     const std::string near = nearest(entry.key, known);
-    std::string hint = near.empty() ? "" : "Did you mean '" + near + "' [" + range_text(*planned.description->parameter(near)) + "]?  ";
+    std::string hint = near.empty()
+                           ? ""
+                           : "Did you mean '" + near + "' [" +
+                                 range_text(*planned.description->parameter(near)) + "]?  ";
     hint += known.empty() ? "It has none." : "Known: " + joined(known) + ".";
     draft.fault(entry.origin, title + ": unknown parameter '" + entry.key + "'.", hint);
     mark_references(draft, entry.value, step.repeat);

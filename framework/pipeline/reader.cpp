@@ -7,7 +7,8 @@ namespace plumb {
 
 using namespace pipeline;
 
-Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay, const Registry& registry) {
+Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                   const Registry& registry) {
   Diagnostics diagnostics;
   std::vector<std::string> files;
   auto tree = load_pipeline(file, overlay, diagnostics, files);

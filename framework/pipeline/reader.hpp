@@ -1,5 +1,6 @@
 #pragma once
-/// YAML -> checked pipeline. Every mistake is found here, before any data is read, and all of them are told at once.
+/// YAML -> checked pipeline. Every mistake is found here, before any data is read, and all of them
+/// are told at once.
 
 #include <filesystem>
 #include <string>
@@ -13,12 +14,17 @@ namespace plumb {
 
 /// What is laid over a pipeline, in this order.
 struct Overlay {
-  std::vector<std::filesystem::path> presets;  ///< each extends the pipeline, or what was laid over it
-  std::vector<std::string> sets;               ///< "voxel=0.2m", a row "coarse.gate=2m,1m", "coarse.kept.clusters=4"
-  bool open = false;  ///< parameters without a value are no mistake (graph, resolve): steps see an empty value
+  std::vector<std::filesystem::path>
+      presets;  ///< each extends the pipeline, or what was laid over it
+  std::vector<std::string>
+      sets;           ///< "voxel=0.2m", a row "coarse.gate=2m,1m", "coarse.kept.clusters=4"
+  bool open = false;  ///< parameters without a value are no mistake (graph, resolve): steps see an
+                      ///< empty value
 };
 
-/// Reads and checks a pipeline, or a preset that extends one. Throws PipelineError with every mistake that it finds.
-Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay, const Registry& registry);
+/// Reads and checks a pipeline, or a preset that extends one. Throws PipelineError with every
+/// mistake that it finds.
+Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                   const Registry& registry);
 
 }  // namespace plumb

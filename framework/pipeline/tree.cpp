@@ -45,10 +45,14 @@ std::vector<std::string> Node::keys() const {
 }
 std::string Node::shown() const {
   switch (kind) {
-    case Kind::none: return "nothing";
-    case Kind::scalar: return quoted ? "the text \"" + text + "\"" : "'" + text + "'";
-    case Kind::list: return "a list";
-    case Kind::map: return "a map";
+    case Kind::none:
+      return "nothing";
+    case Kind::scalar:
+      return quoted ? "the text \"" + text + "\"" : "'" + text + "'";
+    case Kind::list:
+      return "a list";
+    case Kind::map:
+      return "a map";
   }
   return "?";
 }
@@ -144,13 +148,16 @@ class Builder : public YAML::EventHandler {
   }
   void count(const YAML::Mark& mark, std::size_t more) {
     nodes_ += more;
-    if (nodes_ > most_nodes) stop(mark, "more than 20000 values once aliases are expanded; a pipeline is smaller.");
+    if (nodes_ > most_nodes)
+      stop(mark, "more than 20000 values once aliases are expanded; a pipeline is smaller.");
   }
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    diagnostics_.add(origin(mark), "the tag '" + tag + "' means nothing in a pipeline; leave it out.");
+    diagnostics_.add(origin(mark),
+                     "the tag '" + tag + "' means nothing in a pipeline; leave it out.");
   }
-  void start(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+  void start(Node::Kind kind, const YAML::Mark& mark, const std::string& tag,
+             YAML::anchor_t anchor) {
     if (expects_key()) stop(mark, "a key must be a plain word.");
     if (open_.size() >= deepest) stop(mark, "nested more than 64 deep.");
     refuse_tag(mark, tag);
@@ -185,7 +192,8 @@ class Builder : public YAML::EventHandler {
     Entry entry = std::move(top.key);
     entry.value = std::move(node);
     if (entry.key == "<<") {
-      diagnostics_.add(entry.origin, "'<<' does not merge maps here; write the keys out, or use an overlay.");
+      diagnostics_.add(entry.origin,
+                       "'<<' does not merge maps here; write the keys out, or use an overlay.");
     } else if (const Entry* first = top.node.find(entry.key)) {
       diagnostics_.add(entry.origin, "'" + entry.key + "' is written twice.",
                        "First at " + first->origin.text() + ".");
@@ -204,11 +212,14 @@ class Builder : public YAML::EventHandler {
 
 }  // namespace
 
-std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Diagnostics& diagnostics) {
+std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
+                               Diagnostics& diagnostics) {
   diagnostics.read(file, text);
   std::istringstream stream(text);
   Builder builder(file, diagnostics);
-  const auto at = [&](const YAML::Mark& mark) { return Origin{file, mark.line + 1, mark.column + 1}; };
+  const auto at = [&](const YAML::Mark& mark) {
+    return Origin{file, mark.line + 1, mark.column + 1};
+  };
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
@@ -225,7 +236,8 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
   } catch (const Stop&) {
   } catch (const YAML::Exception& fault) {
     const bool placed = !fault.mark.is_null();
-    diagnostics.add(placed ? at(fault.mark) : Origin{file, 1, 1}, "this is not YAML: " + fault.msg + ".");
+    diagnostics.add(placed ? at(fault.mark) : Origin{file, 1, 1},
+                    "this is not YAML: " + fault.msg + ".");
   }
   return std::nullopt;
 }

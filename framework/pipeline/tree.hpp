@@ -17,10 +17,10 @@ struct Node {
   enum class Kind { none, scalar, list, map };
   Kind kind = Kind::none;
   Origin origin;
-  std::string text;             ///< of a scalar
-  bool quoted = false;          ///< a scalar in quotes or a block: text, never a number or a reference
-  std::vector<Node> items;      ///< of a list
-  std::vector<Entry> entries;   ///< of a map, in the order written
+  std::string text;         ///< of a scalar
+  bool quoted = false;      ///< a scalar in quotes or a block: text, never a number or a reference
+  std::vector<Node> items;  ///< of a list
+  std::vector<Entry> entries;  ///< of a map, in the order written
 
   bool is_scalar() const { return kind == Kind::scalar; }
   bool is_list() const { return kind == Kind::list; }
@@ -45,9 +45,10 @@ struct Entry {
   Node value;
 };
 
-/// Reads one YAML document. Refused, with a diagnostic: duplicate keys, `<<`, tags, keys that are not scalars, several
-/// documents, and more than 20,000 nodes once aliases are expanded. What an alias stands for gets the place of its use.
-/// Returns nothing when there is no tree to go on with.
-std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Diagnostics& diagnostics);
+/// Reads one YAML document. Refused, with a diagnostic: duplicate keys, `<<`, tags, keys that are
+/// not scalars, several documents, and more than 20,000 nodes once aliases are expanded. What an
+/// alias stands for gets the place of its use. Returns nothing when there is no tree to go on with.
+std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
+                               Diagnostics& diagnostics);
 
 }  // namespace plumb::pipeline

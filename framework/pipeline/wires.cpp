@@ -9,29 +9,38 @@ namespace {
 /// Which grains an input takes.
 std::vector<Grain> grains_for(StepKind kind, const InputDescription& input) {
   switch (input.access) {
-    case Access::ends: return {Grain::segment};
+    case Access::ends:
+      return {Grain::segment};
     case Access::each:
       if (kind == StepKind::segment) return {Grain::frame};
       return {Grain::frame, Grain::segment, Grain::edge};
     case Access::several:
     case Access::relative:
     case Access::over_edges:
-    case Access::this_edge: return {Grain::whole};
-    case Access::item: break;
+    case Access::this_edge:
+      return {Grain::whole};
+    case Access::item:
+      break;
   }
   switch (kind) {
-    case StepKind::frame: return {Grain::frame, Grain::whole};
-    case StepKind::segment: return {Grain::segment, Grain::whole};
-    case StepKind::edge: return {Grain::edge};
-    case StepKind::fold: return {input.type->grain == Grain::frame ? Grain::frame : Grain::whole};
-    case StepKind::whole: return {Grain::whole};
+    case StepKind::frame:
+      return {Grain::frame, Grain::whole};
+    case StepKind::segment:
+      return {Grain::segment, Grain::whole};
+    case StepKind::edge:
+      return {Grain::edge};
+    case StepKind::fold:
+      return {input.type->grain == Grain::frame ? Grain::frame : Grain::whole};
+    case StepKind::whole:
+      return {Grain::whole};
   }
   return {};
 }
 
 bool fits(StepKind kind, const InputDescription& input, const Source& source) {
   const auto grains = grains_for(kind, input);
-  return source.type == input.type && std::find(grains.begin(), grains.end(), source.grain) != grains.end();
+  return source.type == input.type &&
+         std::find(grains.begin(), grains.end(), source.grain) != grains.end();
 }
 
 /// "Features, one per segment": what a port wants.
@@ -46,7 +55,11 @@ std::string wanted(StepKind kind, const InputDescription& input) {
 class Binder {
  public:
   Binder(Draft& draft, int step)
-      : draft_(draft), step_(step), scope_(draft.steps[step].scope), planned_(draft.plan.steps[step]), title_(draft.title(step)) {}
+      : draft_(draft),
+        step_(step),
+        scope_(draft.steps[step].scope),
+        planned_(draft.plan.steps[step]),
+        title_(draft.title(step)) {}
 
   void bind() {
     const Node* from = draft_.steps[step_].node->at("from");
@@ -54,13 +67,18 @@ class Binder {
       if (from) mark(*from);
       return;
     }
-    if (from && from->is_map()) bind_ports(*from);
-    else if (from && from->is_list()) bind_list(*from);
-    else if (from) bind_one(*from);
+    if (from && from->is_map())
+      bind_ports(*from);
+    else if (from && from->is_list())
+      bind_list(*from);
+    else if (from)
+      bind_one(*from);
     for (std::size_t k = 0; k < planned_.inputs.size(); ++k) {
       const InputDescription& input = planned_.description->inputs[k];
       if (!planned_.inputs[k].empty() || input.optional || faulty_) continue;
-      draft_.fault(planned_.origin, title_ + ": its input '" + input.name + "' is not wired, it wants " + wanted(kind(), input) + ".",
+      draft_.fault(planned_.origin,
+                   title_ + ": its input '" + input.name + "' is not wired, it wants " +
+                       wanted(kind(), input) + ".",
                    candidates(input));
     }
   }
@@ -74,7 +92,8 @@ class Binder {
     for (const Entry& entry : from.entries) mark(entry.value);
     if (!from.is_scalar()) return;
     const auto sources = sources_of(draft_, scope_, from);
-    if (sources && sources->size() == 1) choose(draft_, sources->front());
+    if (sources && sources->size() == 1)
+      choose(draft_, sources->front());
     else if (sources)
       for (const Source& source : *sources)
         if (source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
@@ -93,11 +112,13 @@ class Binder {
       for (const auto& [name, symbol] : draft_.scopes[scope].names) {
         if (symbol.kind != Symbol::Kind::step || symbol.index == step_) continue;
         const StepDescription* other = draft_.plan.steps[symbol.index].description;
-        if (other && std::any_of(other->outputs.begin(), other->outputs.end(), [&](const auto& o) { return o.type == input.type; }))
+        if (other && std::any_of(other->outputs.begin(), other->outputs.end(),
+                                 [&](const auto& o) { return o.type == input.type; }))
           names.push_back(name);
       }
     }
-    return names.empty() ? "" : "Of type " + std::string(input.type->name) + ": " + joined(names) + ".";
+    return names.empty() ? ""
+                         : "Of type " + std::string(input.type->name) + ": " + joined(names) + ".";
   }
 
   void fault(const Node& at, const std::string& sentence, const std::string& hint = "") {
@@ -122,17 +143,22 @@ class Binder {
       wire(fitting[0].first, *fitting[0].second, from.text);
     } else if (fitting.empty()) {
       std::vector<std::string> want;
-      for (const InputDescription& input : inputs) want.push_back("'" + input.name + "' [" + wanted(kind(), input) + "]");
-      fault(from, "'" + from.text + "' gives " + gives + ", which fits none of its inputs.", want.empty() ? "It has none." : "Inputs: " + joined(want) + ".");
+      for (const InputDescription& input : inputs)
+        want.push_back("'" + input.name + "' [" + wanted(kind(), input) + "]");
+      fault(from, "'" + from.text + "' gives " + gives + ", which fits none of its inputs.",
+            want.empty() ? "It has none." : "Inputs: " + joined(want) + ".");
     } else {
       std::vector<std::string> which;
       for (const auto& [k, source] : fitting) {
         std::string text = inputs[k].name + ": " + from.text;
         if (source->wire.step >= 0 && sources->size() > 1)
-          text += "." + draft_.plan.steps[source->wire.step].description->outputs[source->wire.output].name;
+          text +=
+              "." +
+              draft_.plan.steps[source->wire.step].description->outputs[source->wire.output].name;
         which.push_back(text);
       }
-      fault(from, "'" + from.text + "' fits in more than one way.", "Name the input: {" + joined(which, "} or {") + "}.");
+      fault(from, "'" + from.text + "' fits in more than one way.",
+            "Name the input: {" + joined(which, "} or {") + "}.");
     }
   }
 
@@ -143,29 +169,37 @@ class Binder {
       if (planned_.description->inputs[k].access == Access::several) several.push_back(k);
     if (several.size() == 1) return bind_several(several[0], from);
     mark(from);
-    fault(from, several.empty() ? "none of its inputs takes a list." : "more than one of its inputs takes a list.", "Name the inputs: " + joined(ports()) + ".");
+    fault(from,
+          several.empty() ? "none of its inputs takes a list."
+                          : "more than one of its inputs takes a list.",
+          "Name the inputs: " + joined(ports()) + ".");
   }
 
   void bind_ports(const Node& from) {
     for (const Entry& entry : from.entries) {
       const auto& inputs = planned_.description->inputs;
-      const auto input = std::find_if(inputs.begin(), inputs.end(), [&](const auto& i) { return i.name == entry.key; });
+      const auto input = std::find_if(inputs.begin(), inputs.end(),
+                                      [&](const auto& i) { return i.name == entry.key; });
       if (input == inputs.end()) {
         faulty_ = true;
-        draft_.fault(entry.origin, title_ + ": it has no input '" + entry.key + "'.", did_you_mean(entry.key, ports()));
+        draft_.fault(entry.origin, title_ + ": it has no input '" + entry.key + "'.",
+                     did_you_mean(entry.key, ports()));
         mark(entry.value);
         continue;
       }
       const auto index = static_cast<std::size_t>(input - inputs.begin());
-      if (input->access == Access::several && !entry.value.is_scalar()) bind_several(index, entry.value);
-      else bind_port(index, entry.value, entry.value.text);
+      if (input->access == Access::several && !entry.value.is_scalar())
+        bind_several(index, entry.value);
+      else
+        bind_port(index, entry.value, entry.value.text);
     }
   }
 
   void bind_several(std::size_t input, const Node& from) {
     for (const Node& item : from.items) bind_port(input, item, item.text);
     for (const Entry& entry : from.entries) bind_port(input, entry.value, entry.key);
-    if (from.items.empty() && from.entries.empty()) fault(from, "expected names of steps, found " + from.shown() + " without any.");
+    if (from.items.empty() && from.entries.empty())
+      fault(from, "expected names of steps, found " + from.shown() + " without any.");
   }
 
   void bind_port(std::size_t index, const Node& reference, const std::string& label) {
@@ -182,9 +216,14 @@ class Binder {
     for (const Source& source : *sources)
       if (source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
     if (fitting.empty())
-      fault(reference, "its input '" + input.name + "' wants " + wanted(kind(), input) + ", but '" + reference.text + "' gives " + gives + ".",
+      fault(reference,
+            "its input '" + input.name + "' wants " + wanted(kind(), input) + ", but '" +
+                reference.text + "' gives " + gives + ".",
             candidates(input));
-    else fault(reference, "several outputs of '" + reference.text + "' fit its input '" + input.name + "'.", "Write " + reference.text + ".OUTPUT.");
+    else
+      fault(reference,
+            "several outputs of '" + reference.text + "' fit its input '" + input.name + "'.",
+            "Write " + reference.text + ".OUTPUT.");
   }
 
   void wire(std::size_t input, const Source& source, const std::string& label) {
@@ -193,7 +232,8 @@ class Binder {
     for (const Wire& other : wires)
       if (other.label == label) {
         faulty_ = true;
-        return draft_.fault(source.wire.origin, title_ + ": '" + label + "' is there twice.", "Label them: {label: step}.");
+        return draft_.fault(source.wire.origin, title_ + ": '" + label + "' is there twice.",
+                            "Label them: {label: step}.");
       }
     wires.push_back(source.wire);
     wires.back().label = label;
