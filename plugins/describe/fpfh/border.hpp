@@ -1,0 +1,15 @@
+#pragma once
+/// Whether a point lies at the border of its cloud, where its neighbourhood, hence its feature, is
+/// cut off.
+
+#include "pair_counts.hpp"
+
+namespace plumb {
+
+/// The largest angle [rad] between two directions, one after the other, in which neighbours lie as
+/// seen from `point` along its normal; 2 pi if there is no neighbour elsewhere than straight along
+/// the normal. Gaps under 45 degrees are not told apart: they may be given as 0. Source: [Rusu2008]
+/// as PCL's BoundaryEstimation has it; [Xiong2018] drops such points.
+double largest_gap(const Oriented& point, const Candidates& candidates, float squared_radius);
+
+}  // namespace plumb

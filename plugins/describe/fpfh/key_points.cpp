@@ -1,0 +1,48 @@
+#include "key_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+struct InCell {
+  std::array<std::int64_t, 3> cell;
+  std::uint32_t index;
+  auto operator<=>(const InCell&) const = default;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> key_points(const Cloud& cloud, double leaf) {
+  std::vector<std::uint32_t> result;
+  if (!cloud.has_normals()) return result;
+  std::vector<InCell> points;
+  points.reserve(cloud.size());
+  for (std::size_t k = 0; k < cloud.size(); ++k) {
+    const Eigen::Vector3f normal = cloud.normal(k);
+    if (!cloud.point(k).allFinite() || !normal.allFinite() || normal.isZero()) continue;
+    const Eigen::Vector3d at = cloud.point(k).cast<double>() / leaf;
+    const auto cell = [&](int c) { return static_cast<std::int64_t>(std::floor(at[c])); };
+    points.push_back({{cell(0), cell(1), cell(2)}, static_cast<std::uint32_t>(k)});
+  }
+  std::sort(points.begin(), points.end());
+  for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (; end < points.size() && points[end].cell == points[first].cell; ++end)
+      mean += cloud.point(points[end].index).cast<double>();
+    mean /= static_cast<double>(end - first);
+    const auto off = [&](std::size_t k) {
+      return (cloud.point(points[k].index).cast<double>() - mean).squaredNorm();
+    };
+    std::size_t best = first;
+    for (std::size_t k = first + 1; k < end; ++k)
+      if (off(k) < off(best)) best = k;
+    result.push_back(points[best].index);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace plumb

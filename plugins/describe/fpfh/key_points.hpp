@@ -1,0 +1,16 @@
+#pragma once
+/// Which points of a cloud are described.
+
+#include <cstdint>
+#include <vector>
+
+#include "plumb/data/cloud.hpp"
+
+namespace plumb {
+
+/// Of each cubic cell of edge `leaf` [m] the point nearest to the mean of the cell's points, in
+/// ascending order of index. Points without a finite position or without a normal do not count. Of
+/// two that are equally near the one with the lower index is taken.
+std::vector<std::uint32_t> key_points(const Cloud& cloud, double leaf);
+
+}  // namespace plumb
