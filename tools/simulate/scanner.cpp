@@ -31,20 +31,27 @@ Cloud Scanner::scan(const World& world, const Pose& T_world_sensor, std::uint64_
   constexpr float dimmest = 0.1f;
   const auto range = static_cast<float>(options_.range), noise = static_cast<float>(options_.noise);
   const Eigen::Matrix3f turn = T_world_sensor.matrix().cast<float>();
-  Ray ray;
-  ray.origin = (T_world_sensor.translation - world.origin()).cast<float>();
+  Fan fan;
+  fan.origin = (T_world_sensor.translation - world.origin()).cast<float>();
   Cloud cloud;
   cloud.reserve(directions_.size());
   cloud.intensity.reserve(directions_.size());
-  for (std::size_t k = 0; k < directions_.size(); ++k) {
-    ray.direction = turn * directions_[k];
-    const Hit hit = world.cast(ray, range);
-    if (!(hit.t <= range)) continue;
-    const float light = hit.reflectance * std::abs(hit.normal.dot(ray.direction));
-    if (light * range * range < dimmest * hit.t * hit.t) continue;
-    const float measured = std::max(0.01f, hit.t + noise * normal(mix(seed_, frame, k)));
-    cloud.add(measured * directions_[k]);
-    cloud.intensity.push_back(std::min(255.0f, 255 * light));
+  for (std::size_t first = 0; first < directions_.size(); first += lane_count) {
+    const std::size_t count = std::min<std::size_t>(lane_count, directions_.size() - first);
+    for (std::size_t lane = 0; lane < lane_count;
+         ++lane)  // the last fan may be short: its last ray again
+      fan.directions[lane] = turn * directions_[first + std::min(lane, count - 1)];
+    const Hits hits = world.cast(fan, range);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Hit& hit = hits[lane];
+      if (!(hit.t <= range)) continue;
+      const float light = hit.reflectance * std::abs(hit.normal.dot(fan.directions[lane]));
+      if (light * range * range < dimmest * hit.t * hit.t) continue;
+      const std::size_t k = first + lane;
+      const float measured = std::max(0.01f, hit.t + noise * normal(mix(seed_, frame, k)));
+      cloud.add(measured * directions_[k]);
+      cloud.intensity.push_back(std::min(255.0f, 255 * light));
+    }
   }
   return cloud;
 }

@@ -10,13 +10,18 @@ World::World(const Eigen::Vector3d& origin, Ground ground, std::vector<Primitive
       facades_(std::move(facades)),
       bvh_(primitives_) {}
 
-Hit World::cast(const Ray& ray, float range) const {
-  Hit hit;
-  hit.t = range;
-  bool met = false;
-  bvh_.along(ray, hit, [&](std::uint32_t k) { met |= intersect(k, ray, hit); });
-  met |= ground_.intersect(ray, hit);
-  return met ? hit : Hit();
+Hits World::cast(const Fan& fan, float range) const {
+  Hits hits;
+  for (Hit& hit : hits) hit.t = range;
+  std::array<bool, lane_count> met{};
+  bvh_.along(fan, hits, [&](std::uint32_t k, std::size_t lane) {
+    met[lane] |= intersect(k, fan.ray(lane), hits[lane]);
+  });
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    met[lane] |= ground_.intersect(fan.ray(lane), hits[lane]);
+    if (!met[lane]) hits[lane] = Hit();
+  }
+  return hits;
 }
 
 Hit World::cast_by_brute_force(const Ray& ray, float range) const {

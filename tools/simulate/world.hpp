@@ -18,10 +18,10 @@ class World {
   World(const Eigen::Vector3d& origin, Ground ground, std::vector<Primitive> primitives,
         std::vector<Facade> facades);
 
-  /// What `ray` meets first within `range` [m]; an infinite t if nothing.
-  Hit cast(const Ray& ray, float range) const;
+  /// What each ray meets first within `range` [m]; an infinite t if nothing.
+  Hits cast(const Fan& fan, float range) const;
 
-  /// The same from one primitive to the next, without the tree: to judge it by.
+  /// The same for one ray, from one primitive to the next, without the tree: to judge it by.
   Hit cast_by_brute_force(const Ray& ray, float range) const;
 
   const Eigen::Vector3d& origin() const { return origin_; }
