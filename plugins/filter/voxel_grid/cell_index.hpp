@@ -1,73 +1,66 @@
 #pragma once
-/// Numbers the occupied cells of a grid, fast where neighbours in the input are neighbours in
-/// space.
+/// Numbers the occupied cells of a grid.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace plumb {
 
-/// Gives each cell (x, y, z) that it is asked for a number, 0, 1, 2 ... in the order of first
-/// asking. Coordinates are 21 bits each.
+/// Gives each cell key (not ~0) that it is asked for a number, 0, 1, 2 ... in the order of first
+/// asking.
 ///
-/// Cells are kept in blocks of 4 x 4 x 4. A hash table finds the block, and the block holds the
-/// numbers of its cells. Points of a scan line, and of the next frame's, mostly lie in the block of
-/// the point before: for these no table is asked.
+/// A hash table with open addressing. Most of its slots are far from the processor, so keys come in
+/// batches: all their slots are fetched ahead, and the waits overlap.
 class CellIndex {
  public:
-  CellIndex() : table_(1024) {}
+  static constexpr std::size_t batch = 256;
 
-  /// The cell's number; `count()` grows by one if it is new.
-  std::uint32_t of(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    const std::uint64_t key =
-        (std::uint64_t{x >> 2} << 38 | std::uint64_t{y >> 2} << 19 | z >> 2) + 1;
-    if (key != last_key_) {
-      last_ = block(key);
-      last_key_ = key;
+  /// The numbers of `n` <= batch keys; count() grows by one with each new key.
+  void number(const std::uint64_t* keys, std::size_t n, std::uint32_t* numbers) {
+    if (8 * (count_ + batch) > 5 * slots_.size()) grow();
+    std::uint64_t at[batch];
+    for (std::size_t k = 0; k < n; ++k) {
+      at[k] = place_of(keys[k]);
+      __builtin_prefetch(&slots_[at[k]], 1);
     }
-    std::uint32_t& number = blocks_[last_][(x & 3) << 4 | (y & 3) << 2 | (z & 3)];
-    if (number == none) number = count_++;
-    return number;
+    for (std::size_t k = 0; k < n; ++k) {
+      Slot& slot = find(keys[k], at[k]);
+      if (slot.key == unused) slot = {keys[k], count_++};
+      numbers[k] = slot.number;
+    }
   }
   std::uint32_t count() const { return count_; }
 
  private:
-  static constexpr std::uint32_t none = 0xffffffff;
-  using Block = std::array<std::uint32_t, 64>;
+  static constexpr std::uint64_t unused = ~std::uint64_t{0};
   struct Slot {
-    std::uint64_t key = 0;  ///< 0 is free
-    std::uint32_t block = 0;
+    std::uint64_t key = unused;
+    std::uint32_t number = 0;
   };
 
-  Slot& slot_of(std::uint64_t key) {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t at = (key * 0x9e3779b97f4a7c15ull) >> 20 & mask;
-    while (table_[at].key != 0 && table_[at].key != key) at = (at + 1) & mask;
-    return table_[at];
+  /// Where a key's slot is, or the first to look at: the highest bits of its product with odd
+  /// numbers.
+  std::uint64_t place_of(std::uint64_t key) const {
+    key *= 0x9e3779b97f4a7c15ull;
+    key ^= key >> 32;
+    return key * 0xd6e8feb86659fd93ull >> shift_;
   }
-  std::uint32_t block(std::uint64_t key) {
-    Slot* slot = &slot_of(key);
-    if (slot->key == key) return slot->block;
-    if (2 * blocks_.size() >= table_.size()) {
-      grow();
-      slot = &slot_of(key);
-    }
-    *slot = {key, static_cast<std::uint32_t>(blocks_.size())};
-    blocks_.emplace_back().fill(none);
-    return slot->block;
+  Slot& find(std::uint64_t key, std::uint64_t at) {
+    while (slots_[at].key != key && slots_[at].key != unused) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at];
   }
   void grow() {
-    std::vector<Slot> old(2 * table_.size());
-    old.swap(table_);
+    std::vector<Slot> old(4 * slots_.size());
+    old.swap(slots_);
+    shift_ -= 2;
     for (const Slot& slot : old)
-      if (slot.key != 0) slot_of(slot.key) = slot;
+      if (slot.key != unused) find(slot.key, place_of(slot.key)) = slot;
   }
 
-  std::vector<Slot> table_;  ///< open addressing; a power of two, at most half full
-  std::vector<Block> blocks_;
-  std::uint64_t last_key_ = 0;
-  std::uint32_t last_ = 0;
+  int shift_ = 64 - 12;
+  std::vector<Slot> slots_ =
+      std::vector<Slot>(std::size_t{1} << 12);  ///< a power of two, at most 5/8 full
   std::uint32_t count_ = 0;
 };
 

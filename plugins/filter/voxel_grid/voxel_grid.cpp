@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "cell_index.hpp"
 #include "plumb/data/error.hpp"
@@ -12,7 +13,6 @@ namespace plumb {
 namespace {
 
 constexpr double most_cells = 1 << 21;
-constexpr std::size_t chunk = 512;  ///< points whose cells are reckoned together
 
 bool all_finite(const std::vector<float>& values) {
   std::uint32_t special = 0;
@@ -49,26 +49,48 @@ struct Axis {
 
 /// What a cell gathers.
 struct Cell {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double intensity = 0;
+  double x = 0, y = 0, z = 0, intensity = 0;
   float nearest =
       std::numeric_limits<float>::infinity();  ///< squared distance from which it was seen [m^2]
   std::uint32_t count = 0;
   std::uint16_t frame = 0;
 };
 
-/// The cell's number of each point; a new cell is `made`.
-template <class Body>
-std::uint32_t for_each_cell(const Cloud& cloud, double leaf, Body body) {
+/// Cells by number, in blocks, so that growing moves none of them.
+class Cells {
+ public:
+  Cell& operator[](std::uint32_t number) {
+    return blocks_[number >> bits][number & ((1u << bits) - 1)];
+  }
+  /// Room for cells up to `count`.
+  void grow(std::uint32_t count) {
+    while (blocks_.size() << bits < count) blocks_.push_back(std::make_unique<Cell[]>(1u << bits));
+  }
+
+ private:
+  static constexpr int bits = 11;
+  std::vector<std::unique_ptr<Cell[]>> blocks_;
+};
+
+/// Calls body(first, n, numbers) for batches of points first .. first+n-1 with their cells'
+/// numbers, and `grown(count)` before it.
+template <class Grown, class Body>
+std::uint32_t number_cells(const Cloud& cloud, double leaf, Grown grown, Body body) {
   const Axis x(cloud.x, leaf, "x"), y(cloud.y, leaf, "y"), z(cloud.z, leaf, "z");
+  constexpr std::size_t batch = CellIndex::batch;
   CellIndex index;
-  std::uint32_t cx[chunk], cy[chunk], cz[chunk];
-  for (std::size_t first = 0; first < cloud.size(); first += chunk) {
-    const std::size_t n = std::min(chunk, cloud.size() - first);
+  std::uint64_t keys[batch];
+  std::uint32_t cx[batch], cy[batch], cz[batch], numbers[batch];
+  for (std::size_t first = 0; first < cloud.size(); first += batch) {
+    const std::size_t n = std::min(batch, cloud.size() - first);
     x.cells(first, n, cx);
     y.cells(first, n, cy);
     z.cells(first, n, cz);
-    for (std::size_t k = 0; k < n; ++k) body(first + k, index.of(cx[k], cy[k], cz[k]));
+    for (std::size_t k = 0; k < n; ++k)
+      keys[k] = std::uint64_t{cx[k]} << 42 | std::uint64_t{cy[k]} << 21 | cz[k];
+    index.number(keys, n, numbers);
+    grown(index.count());
+    body(first, n, numbers);
   }
   return index.count();
 }
@@ -100,29 +122,39 @@ struct Normals {
 template <bool has_intensity, bool has_frames>
 Thinned thin_finite(const Cloud& cloud, const std::vector<std::uint16_t>& frame,
                     const std::vector<Eigen::Vector3f>& origins, double leaf) {
-  std::vector<Cell> cells;
+  Cells cells;
   Normals normals;
   const bool has_normals = cloud.has_normals();
-  for_each_cell(cloud, leaf, [&](std::size_t k, std::uint32_t number) {
-    if (number == cells.size()) cells.emplace_back();
-    Cell& cell = cells[number];
-    const Eigen::Vector3f p = cloud.point(k);
-    cell.sum += p.cast<double>();
+  const auto add = [&](std::size_t k, Cell& cell) {
+    cell.x += cloud.x[k];
+    cell.y += cloud.y[k];
+    cell.z += cloud.z[k];
     ++cell.count;
     if constexpr (has_intensity) cell.intensity += cloud.intensity[k];
     if constexpr (has_frames) {
-      const float distance = (p - origins[frame[k]]).squaredNorm();
+      const float distance = (cloud.point(k) - origins[frame[k]]).squaredNorm();
       if (distance < cell.nearest) cell.nearest = distance, cell.frame = frame[k];
     }
-    if (has_normals) normals.add(number, cloud.normal(k));
-  });
+  };
+  const std::uint32_t count = number_cells(
+      cloud, leaf, [&](std::uint32_t so_far) { cells.grow(so_far); },
+      [&](std::size_t first, std::size_t n, const std::uint32_t* numbers) {
+        for (std::size_t k = 0; k < n; ++k) __builtin_prefetch(&cells[numbers[k]], 1);
+        for (std::size_t k = 0; k < n; ++k) add(first + k, cells[numbers[k]]);
+        if (has_normals)
+          for (std::size_t k = 0; k < n; ++k) normals.add(numbers[k], cloud.normal(first + k));
+      });
 
   Thinned result;
-  result.cloud.reserve(cells.size());
-  for (const Cell& cell : cells) {
-    result.cloud.add((cell.sum / cell.count).cast<float>());
+  result.cloud.reserve(count);
+  if constexpr (has_intensity) result.cloud.intensity.reserve(count);
+  if constexpr (has_frames) result.frame.reserve(count);
+  for (std::uint32_t c = 0; c < count; ++c) {
+    const Cell& cell = cells[c];
+    const double share = 1.0 / cell.count;
+    result.cloud.add(Eigen::Vector3d(share * cell.x, share * cell.y, share * cell.z).cast<float>());
     if constexpr (has_intensity)
-      result.cloud.intensity.push_back(static_cast<float>(cell.intensity / cell.count));
+      result.cloud.intensity.push_back(static_cast<float>(share * cell.intensity));
     if constexpr (has_frames) result.frame.push_back(cell.frame);
   }
   normals.write(result.cloud);

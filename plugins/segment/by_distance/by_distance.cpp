@@ -11,9 +11,11 @@ std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled
       starts.push_back(k);
   }
   if (starts.size() < 2) return starts;
-  const bool short_path = travelled.back() - travelled[starts.back()] < 0.5 * length;
-  const bool few_frames = !most_frames || 2 * (travelled.size() - starts.back()) < *most_frames;
-  if (short_path && few_frames) starts.pop_back();
+  const std::size_t last = starts.back(), before = starts[starts.size() - 2];
+  const bool short_path = travelled.back() - travelled[last] < 0.5 * length;
+  const bool few_frames = !most_frames || 2 * (travelled.size() - last) < *most_frames;
+  const bool fits = travelled.back() - travelled[before] < 2 * length;
+  if (short_path && few_frames && fits) starts.pop_back();
   return starts;
 }
 

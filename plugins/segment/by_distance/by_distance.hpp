@@ -10,7 +10,8 @@ namespace plumb {
 /// First frames of segments that are at most `length` [m] long: a frame begins a new one when it is
 /// farther than that along the path from its segment's first frame, or would be its frame number
 /// `most_frames` (from 0). `travelled` is the path [m] from the first frame to each. A last segment
-/// that is under half in both senses joins the one before it. Empty for no frames. Ours.
+/// that is under half in both senses joins the one before it, unless both together would reach
+/// twice `length`. Empty for no frames. Ours.
 std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled, double length,
                                             std::optional<std::size_t> most_frames);
 

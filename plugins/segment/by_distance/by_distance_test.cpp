@@ -18,7 +18,7 @@ TEST(SegmentByDistance, CutsWhereThePathExceedsTheLength) {
 }
 
 TEST(SegmentByDistance, GivesEachFrameItsOwnSegmentWhenFramesAreFartherApart) {
-  EXPECT_THAT(starts_by_distance({0, 20, 40}, 15, {}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(starts_by_distance({0, 30, 60}, 15, {}), ElementsAre(0, 1, 2));
 }
 
 TEST(SegmentByDistance, JoinsALastSegmentUnderHalfToTheOneBefore) {
