@@ -1,0 +1,58 @@
+#include "neighbours.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct OverlapEdges : WholeStep {
+  struct In {
+    Each<Segment> segments;
+    One<Poses> poses;
+  };
+  struct Out {
+    Edges edges;
+  };
+  using Params = OverlapOptions;
+
+  static void describe(Declaration<OverlapEdges>& is) {
+    is.name("edges.overlap").version(1);
+    is.summary("Joins segments whose clouds overlap, and all that follow each other.");
+    is.source("[Tang2024] 2.3.1");
+    is.input("segments", &In::segments, "the clouds");
+    is.input("poses", &In::poses, "where the segments are at present");
+    is.output("edges", &Out::edges, "sequential edges, and neighbours; the score is the overlap");
+    is.param("voxel", &Params::voxel)
+        .unit("m")
+        .range(0.01, 100)
+        .doc("edge of the octree's leaves: points in the same one overlap");
+    is.param("threshold", &Params::threshold)
+        .unit("%")
+        .range(0, 1)
+        .doc("pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of consecutive segments");
+    is.param("margin", &Params::margin).unit("%").range(0.01, 1).doc("see 'threshold'");
+    is.param("least", &Params::least)
+        .unit("%")
+        .range(0, 1)
+        .doc("the threshold is never below this, however little some consecutive segments overlap");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    const std::size_t count = in.segments.size();
+    if (in.poses->size() != count)
+      throw Error("there are " + std::to_string(count) + " segments and " + std::to_string(in.poses->size()) +
+                  " poses: wire poses of the same segments");
+    auto found = neighbours(count, [&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses, params,
+                            context);
+    for (const auto k : found.disconnected)
+      context.warn("segments " + std::to_string(k) + " and " + std::to_string(k + 1) +
+                   " follow each other but do not overlap");
+    context.count("pairs whose boxes meet", found.compared);
+    context.count("neighbours", found.edges.size() - (count > 0 ? count - 1 : 0));
+    return {std::move(found.edges)};
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::OverlapEdges)
