@@ -1,0 +1,308 @@
+#include "pose_graph.hpp"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <memory>
+
+#include "edge_state.hpp"
+#include "parts.hpp"
+#include "plumb/data/error.hpp"
+#include "pose_manifold.hpp"
+#include "verdict.hpp"
+
+namespace plumb {
+namespace {
+
+/// A relation's or prior's term, and the robust weight it has in this round.
+struct RelationTerm {
+  RelativePose relation;
+  bool robust = false;
+  std::unique_ptr<ceres::CostFunction> cost;
+  double root_weight = 1;
+};
+
+/// The problem in Ceres, and all that it points into.
+class Graph {
+ public:
+  Graph(const Poses& start, std::span<const MatchedEdge> edges, const Relations* relations,
+        const GraphOptions& options, const ParallelLoop& parallel)
+      : start_(start), options_(options), parallel_(parallel), parts_(start.size()) {
+    for (const auto& pose : start.T_world_segment) blocks_.push_back(block_of(pose));
+    check(edges, relations);
+    for (const auto& edge : edges)
+      edges_.push_back(std::make_unique<EdgeState>(edge, options_));
+    if (relations) add_relations(*relations);
+    add_priors();
+    build(relations);
+  }
+
+  GraphResult solve() {
+    const double before = cost();
+    for (int round = 0; round < rounds(); ++round) {
+      ++rounds_used_;
+      refresh(hardness(round));
+      const auto old = blocks_;
+      iterate();
+      if (round >= annealing_rounds() && moved_since(old) <= options_.tolerance) break;
+    }
+    place_parts();
+    refresh(hardness(rounds()));
+    return result(before);
+  }
+
+ private:
+  // ---- building -------------------------------------------------------------------------------------------------------------
+
+  void check(std::span<const MatchedEdge> edges, const Relations* relations) const {
+    const auto has = [&](std::uint32_t i, const char* what) {
+      if (i >= start_.size())
+        throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but there are " +
+                    std::to_string(start_.size()) + " poses; wire poses of the same segments");
+    };
+    for (const auto& e : edges) has(e.edge.i, "an edge"), has(e.edge.j, "an edge");
+    if (!relations) return;
+    for (const auto& r : relations->relative) has(r.i, "a relation"), has(r.j, "a relation");
+    for (const auto& r : relations->absolute) has(r.i, "an absolute pose");
+    for (const auto& r : relations->points) has(r.i, "a control point");
+  }
+
+  void add_relations(const Relations& relations) {
+    planar_ = relations.planar;
+    for (const auto& relation : relations.relative) {
+      auto term = std::make_unique<RelationTerm>();
+      term->relation = relation;
+      term->robust = relation.j != relation.i + 1;
+      if (options_.relation_error == RelationError::chordal)
+        term->cost = std::make_unique<ChordalCost>(relation, planar_, &term->root_weight);
+      else
+        term->cost = std::make_unique<G2oCost>(relation, &term->root_weight);
+      terms_.push_back(std::move(term));
+    }
+    relations_ = terms_.size();
+  }
+
+  /// The shape that the poses came with, between neighbours: q.vec is half the rotation, hence the 4.
+  void add_priors() {
+    if (!options_.odometry_translation || !options_.odometry_rotation) return;
+    for (std::uint32_t k = 0; k + 1 < start_.size(); ++k) {
+      auto term = std::make_unique<RelationTerm>();
+      term->relation = {k, k + 1, start_.relative(k, k + 1), Matrix6d::Zero()};
+      term->relation.information.diagonal().head<3>().setConstant(
+          std::pow(*options_.odometry_translation, -2));
+      term->relation.information.diagonal().tail<3>().setConstant(
+          4 * std::pow(*options_.odometry_rotation, -2));
+      term->cost = std::make_unique<G2oCost>(term->relation, &term->root_weight);
+      terms_.push_back(std::move(term));
+    }
+  }
+
+  void build(const Relations* relations) {
+    ceres::Problem::Options ownership;
+    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    problem_ = std::make_unique<ceres::Problem>(ownership);
+    manifold_ = std::make_unique<PoseManifold>(planar_);
+    for (auto& block : blocks_) problem_->AddParameterBlock(block.data(), 7, manifold_.get());
+
+    std::vector<bool> held(blocks_.size(), false);
+    const auto add = [&](std::unique_ptr<ceres::CostFunction> cost, auto... vertex) {
+      problem_->AddResidualBlock(cost.get(), nullptr, blocks_[vertex].data()...);
+      owned_.push_back(std::move(cost));
+    };
+    for (const auto& edge : edges_) {
+      const auto [i, j] = std::pair(edge->edge().i, edge->edge().j);
+      if (edge->pairs() == 0 || i == j) continue;
+      add(std::make_unique<PairCost>(&edge->form(), edge->root_weight()), i, j);
+      parts_.join(i, j);
+    }
+    for (const auto& term : terms_) {
+      const auto [i, j] = std::pair(term->relation.i, term->relation.j);
+      if (i == j) continue;
+      problem_->AddResidualBlock(term->cost.get(), nullptr, blocks_[i].data(), blocks_[j].data());
+      parts_.join(i, j);
+    }
+    if (relations) {
+      for (const auto& a : relations->absolute) {
+        add(std::make_unique<AbsolutePoseCost>(a), a.i);
+        held[a.i] = true;
+      }
+      for (const auto& p : relations->points) {
+        add(std::make_unique<AbsolutePointCost>(p), p.i);
+        held[p.i] = true;
+      }
+    }
+    for (const auto& part : parts_.list()) {
+      const bool absolute =
+          std::any_of(part.begin(), part.end(), [&](auto v) { return held[v]; });
+      if (!absolute) problem_->SetParameterBlockConstant(blocks_[part.front()].data());
+      absolute_.push_back(absolute);
+    }
+  }
+
+  // ---- rounds ---------------------------------------------------------------------------------------------------------------
+
+  bool reweighted() const {
+    return options_.loss != Loss::none || options_.edge_loss != Loss::none;
+  }
+  int rounds() const { return reweighted() ? options_.rounds : 1; }
+  /// Two thirds of the rounds shrink the scales; the rest have the final ones.
+  int annealing_rounds() const {
+    return reweighted() && options_.anneal_from ? 2 * options_.rounds / 3 : 0;
+  }
+  Hardness hardness(int round) const {
+    double factor = 1;
+    if (const int shrinking = annealing_rounds(); round < shrinking)
+      factor = std::pow(std::max(1.0, *options_.anneal_from / options_.scale),
+                        1 - static_cast<double>(round) / shrinking);
+    return {factor * options_.scale, factor * options_.edge_scale};
+  }
+
+  Pose pose(std::uint32_t k) const { return pose_of(blocks_[k].data()); }
+  Pose T_j_i(const Edge& e) const { return pose(e.j).inverse() * pose(e.i); }
+
+  void refresh(const Hardness& hardness) {
+    parallel_(edges_.size(), [&](std::size_t k) {
+      edges_[k]->refresh(T_j_i(edges_[k]->edge()), hardness);
+    });
+    const double scale = options_.relation_scale * hardness.scale / options_.scale;
+    for (auto& term : terms_) {
+      if (!term->robust) continue;
+      term->root_weight = 1;
+      term->root_weight = std::sqrt(loss_weight(options_.loss, squared(*term) / (scale * scale)));
+    }
+  }
+
+  /// The term's squared residual under the present poses, times its present weight.
+  double squared(const RelationTerm& term) const {
+    const double* poses[2] = {blocks_[term.relation.i].data(), blocks_[term.relation.j].data()};
+    Eigen::VectorXd residual(term.cost->num_residuals());
+    term.cost->Evaluate(poses, residual.data(), nullptr);
+    return residual.squaredNorm();
+  }
+
+  void iterate() {
+    ceres::Solver::Options solver;
+    solver.max_num_iterations = options_.iterations;
+    solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    solver.num_threads = 1;  // the same sums in the same order
+    solver.logging_type = ceres::SILENT;
+    // Rounds with weights to refresh need no more than weights are worth; a single one goes to the end.
+    solver.function_tolerance = reweighted() ? 1e-6 : 1e-12;
+    solver.parameter_tolerance = 1e-12;
+    solver.gradient_tolerance = 1e-12;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, problem_.get(), &summary);
+    if (summary.termination_type == ceres::FAILURE)
+      throw Error("the graph could not be solved: " + summary.message);
+    iterations_used_ += static_cast<int>(summary.iterations.size()) - 1;
+  }
+
+  /// [m] the largest move of a pose, its rotation taken at 10 m.
+  double moved_since(const std::vector<PoseBlock>& old) const {
+    double most = 0;
+    for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
+      const Pose before = pose_of(old[k].data()), now = pose(k);
+      most = std::max({most, (now.translation - before.translation).norm(),
+                       10 * angle(before.inverse() * now)});
+    }
+    return most;
+  }
+
+  /// Parts that nothing joins to the rest follow the pose before their first one.
+  void place_parts() {
+    const auto parts = parts_.list();
+    for (std::size_t n = 1; n < parts.size(); ++n) {
+      if (absolute_[n]) continue;
+      const std::uint32_t before = parts[n].front() - 1;
+      const Pose move = pose(before) * start_.T_world_segment[before].inverse();
+      for (const auto v : parts[n]) blocks_[v] = block_of(move * pose(v));
+    }
+  }
+
+  // ---- results --------------------------------------------------------------------------------------------------------------
+
+  /// The robust cost with the final scales: a sum of squares without a half.
+  double cost() {
+    std::vector<double> shares(edges_.size());
+    parallel_(edges_.size(), [&](std::size_t k) {
+      shares[k] = edges_[k]->cost(T_j_i(edges_[k]->edge()));
+    });
+    double sum = 0;
+    for (const double share : shares) sum += share;
+    const double scale2 = options_.relation_scale * options_.relation_scale;
+    for (auto& term : terms_) {
+      term->root_weight = 1;
+      const double s = squared(*term);
+      sum += term->robust ? scale2 * loss(options_.loss, s / scale2) : s;
+    }
+    for (const auto& single : absolute_terms()) sum += single;
+    return sum;
+  }
+  std::vector<double> absolute_terms() const {
+    std::vector<double> squares;
+    std::vector<ceres::ResidualBlockId> ids;
+    problem_->GetResidualBlocks(&ids);
+    for (const auto id : ids) {
+      std::vector<double*> blocks;
+      problem_->GetParameterBlocksForResidualBlock(id, &blocks);
+      if (blocks.size() != 1) continue;
+      double half = 0;
+      problem_->EvaluateResidualBlock(id, false, &half, nullptr, nullptr);
+      squares.push_back(2 * half);
+    }
+    return squares;
+  }
+
+  GraphResult result(double before) {
+    GraphResult result;
+    for (std::uint32_t k = 0; k < blocks_.size(); ++k)
+      result.poses.T_world_segment.push_back(pose(k));
+    Verdict verdict(start_.size());
+    for (const auto& edge : edges_) verdict.add(*edge);
+    for (std::size_t k = 0; k < relations_; ++k) {
+      const auto& r = terms_[k]->relation;
+      const Pose error = r.T_i_j.inverse() * (pose(r.i).inverse() * pose(r.j));
+      verdict.add(r, error.translation.norm(), terms_[k]->root_weight * terms_[k]->root_weight);
+    }
+    if (terms_.size() > relations_) verdict.joined_by_prior();
+    result.metrics = verdict.metrics(before, cost(), rounds_used_, iterations_used_);
+    result.warnings = verdict.warnings(parts_.list());
+    return result;
+  }
+
+  const Poses& start_;
+  const GraphOptions& options_;
+  const ParallelLoop& parallel_;
+  Parts parts_;
+  bool planar_ = false;
+  std::vector<PoseBlock> blocks_;
+  std::vector<std::unique_ptr<EdgeState>> edges_;
+  std::vector<std::unique_ptr<RelationTerm>> terms_;  ///< relations first, then priors
+  std::size_t relations_ = 0;
+  std::vector<std::unique_ptr<ceres::CostFunction>> owned_;
+  std::unique_ptr<PoseManifold> manifold_;
+  std::unique_ptr<ceres::Problem> problem_;
+  std::vector<bool> absolute_;  ///< of each part
+  int rounds_used_ = 0, iterations_used_ = 0;
+};
+
+}  // namespace
+
+std::string GraphOptions::check() const {
+  if (odometry_translation.has_value() != odometry_rotation.has_value())
+    return "odometry_translation and odometry_rotation go together; give both or neither";
+  if (anneal_from && *anneal_from < scale)
+    return "anneal_from must not be smaller than scale, to which it shrinks";
+  return "";
+}
+
+GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
+                             const Relations* relations, const GraphOptions& options,
+                             const ParallelLoop& parallel) {
+  if (start.size() == 0) throw Error("there are no poses to solve for");
+  return Graph(start, edges, relations, options, parallel).solve();
+}
+
+}  // namespace plumb

@@ -1,0 +1,228 @@
+#include <gmock/gmock.h>
+
+#include <Eigen/SparseCholesky>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "graph_testing.hpp"
+#include "plumb/data/error.hpp"
+
+namespace plumb {
+namespace {
+
+struct File {
+  Poses poses;
+  Relations relations;
+};
+
+/// EDGE_SE3:QUAT and VERTEX_SE3:QUAT lines of a file whose vertices are numbered from 0.
+File read(const std::filesystem::path& path) {
+  File file;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string tag;
+    words >> tag;
+    const auto pose = [&] {
+      double v[7];
+      for (double& x : v) words >> x;
+      return Pose(Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized(), Eigen::Vector3d(v[0], v[1], v[2]));
+    };
+    if (tag == "VERTEX_SE3:QUAT") {
+      int id;
+      words >> id;
+      file.poses.T_world_segment.push_back(pose());
+    } else if (tag == "EDGE_SE3:QUAT") {
+      RelativePose r;
+      words >> r.i >> r.j;
+      r.T_i_j = pose();
+      for (int a = 0; a < 6; ++a)
+        for (int b = a; b < 6; ++b) {
+          words >> r.information(a, b);
+          r.information(b, a) = r.information(a, b);
+        }
+      file.relations.relative.push_back(r);
+    }
+  }
+  return file;
+}
+
+/// g2o's error of one relation, written down once more.
+Vector6d error_of(const RelativePose& r, const Pose& a, const Pose& b) {
+  const Eigen::Matrix3d R = r.T_i_j.matrix().transpose() * a.matrix().transpose() * b.matrix();
+  const Eigen::Vector3d t = r.T_i_j.matrix().transpose() *
+                            (a.matrix().transpose() * (b.translation - a.translation) - r.T_i_j.translation);
+  const Eigen::Quaterniond q(R);
+  Vector6d e;
+  e << t, (q.w() < 0 ? -1 : 1) * q.vec();
+  return e;
+}
+
+double cost_of(const Relations& relations, const Poses& poses) {
+  double sum = 0;
+  for (const auto& r : relations.relative) {
+    const Vector6d e = error_of(r, poses.T_world_segment[r.i], poses.T_world_segment[r.j]);
+    sum += e.dot(r.information * e);
+  }
+  return sum;
+}
+
+/// The second computation: Gauss-Newton with derivatives by central differences and a left perturbation, nothing of Ceres.
+Poses gauss_newton(const Relations& relations, Poses poses, int steps) {
+  const auto n = static_cast<Eigen::Index>(poses.size());
+  const auto moved = [](const Pose& T, const Vector6d& m) {
+    return Pose(exp_rotation(m.tail<3>()) * T.rotation, T.translation + m.head<3>());
+  };
+  for (int step = 0; step < steps; ++step) {
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(6 * n);
+    for (const auto& r : relations.relative) {
+      const Pose T[2] = {poses.T_world_segment[r.i], poses.T_world_segment[r.j]};
+      const Eigen::Index at[2] = {6 * static_cast<Eigen::Index>(r.i), 6 * static_cast<Eigen::Index>(r.j)};
+      const Vector6d e = error_of(r, T[0], T[1]);
+      Matrix6d J[2];
+      for (int end = 0; end < 2; ++end)
+        for (int k = 0; k < 6; ++k) {
+          const Vector6d h = 1e-5 * Vector6d::Unit(k);
+          Pose up[2] = {T[0], T[1]}, down[2] = {T[0], T[1]};
+          up[end] = moved(T[end], h);
+          down[end] = moved(T[end], -h);
+          J[end].col(k) = (error_of(r, up[0], up[1]) - error_of(r, down[0], down[1])) / 2e-5;
+        }
+      for (int a = 0; a < 2; ++a) {
+        gradient.segment<6>(at[a]) += J[a].transpose() * (r.information * e);
+        for (int b = 0; b < 2; ++b) {
+          const Matrix6d block = J[a].transpose() * r.information * J[b];
+          for (int row = 0; row < 6; ++row)
+            for (int col = 0; col < 6; ++col) entries.emplace_back(at[a] + row, at[b] + col, block(row, col));
+        }
+      }
+    }
+    for (int k = 0; k < 6; ++k) entries.emplace_back(k, k, 1e9);  // holds the first pose
+    Eigen::SparseMatrix<double> H(6 * n, 6 * n);
+    H.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(H);
+    const Eigen::VectorXd move = solver.solve(-gradient);
+    for (Eigen::Index v = 0; v < n; ++v) {
+      auto& T = poses.T_world_segment[static_cast<std::size_t>(v)];
+      T = moved(T, move.segment<6>(6 * v));
+    }
+    if (move.norm() < 1e-8) break;
+  }
+  return poses;
+}
+
+GraphOptions least_squares() {
+  GraphOptions options;
+  options.loss = Loss::none;
+  return options;
+}
+
+class KnownGraph : public testing::TestWithParam<const char*> {};
+
+TEST_P(KnownGraph, ReachesTheCostThatASecondComputationFinds) {
+  const char* data = std::getenv("PLUMB_DATA");
+  const auto folder = data ? std::filesystem::path(data)
+                           : std::filesystem::path(PLUMB_SOURCE_DIR) / "../shared/data";
+  const auto path = folder / "graphs" / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not on this machine";
+  const File file = read(path);
+  const auto result = solve_pose_graph(file.poses, {}, &file.relations, least_squares(), in_order);
+  const double cost = cost_of(file.relations, result.poses);
+  EXPECT_NEAR(result.metrics.numbers[2].value / cost, 1, 1e-9) << "cost_after is not the cost";
+  const double second = cost_of(file.relations, gauss_newton(file.relations, file.poses, 30));
+  EXPECT_NEAR(cost / second, 1, 1e-6) << cost << " against " << second;
+  RecordProperty("cost", std::to_string(cost));
+  std::printf("%s: cost %.9g, the second computation %.9g\n", GetParam(), cost, second);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, KnownGraph, testing::Values("parking-garage.g2o", "sphere2500.g2o"));
+
+/// The circle of graph_testing.hpp with relations in place of pairs.
+Relations relations_of(const TestGraph& g, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  Relations relations;
+  for (const auto& e : g.edges) {
+    RelativePose r{e.i, e.j, g.truth.relative(e.i, e.j), Matrix6d::Identity()};
+    r.T_i_j = r.T_i_j * Pose(exp_rotation(gauss3(random, 0.002)), gauss3(random, 0.05));
+    r.information.diagonal().head<3>().setConstant(std::pow(0.05, -2));
+    r.information.diagonal().tail<3>().setConstant(std::pow(0.001, -2));
+    relations.relative.push_back(r);
+  }
+  return relations;
+}
+
+TEST(Relations, OfWhichATenthAreFalseLoopsAreLetGo) {
+  const auto g = circle(40, 2, 1);
+  auto relations = relations_of(g, 4);
+  GraphOptions options;
+  options.loss = Loss::geman_mcclure;
+  options.anneal_from = 50;  // with scale 0.5 m: from 100 times relation_scale
+  const auto solved = [&] { return solve_pose_graph(g.drifted, {}, &relations, options, in_order); };
+  const double clean = ate(solved().poses, g.truth);
+  std::vector<std::size_t> planted;
+  for (std::size_t k = 0; k < g.edges.size(); ++k)
+    if (g.edges[k].kind == EdgeKind::loop && k % 10 == 1) planted.push_back(k);
+  ASSERT_GE(planted.size(), 4u);
+  for (const auto k : planted) relations.relative[k].T_i_j.translation += Eigen::Vector3d(9, 5, -3);
+  const auto result = solved();
+  EXPECT_LT(ate(result.poses, g.truth), 1.1 * clean + 1e-3);
+  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].fate, "rejected");
+}
+
+TEST(Relations, TheChordalErrorGivesNearlyTheSamePoses) {
+  const auto g = circle(30, 2, 2);
+  const auto relations = relations_of(g, 5);
+  auto options = least_squares();
+  const auto a = solve_pose_graph(g.drifted, {}, &relations, options, in_order);
+  options.relation_error = RelationError::chordal;
+  const auto b = solve_pose_graph(g.drifted, {}, &relations, options, in_order);
+  EXPECT_LT(ate(a.poses, b.poses), 0.02);
+}
+
+TEST(Relations, AbsolutePosesAndPointsPutTheGraphIntoTheirFrame) {
+  const auto g = circle(20, 2, 3);
+  const Pose shifted(exp_rotation({0, 0, 2}), {1000, -500, 30});
+  Relations points = relations_of(g, 6), one_pose = points;
+  for (const std::uint32_t k : {0u, 7u, 15u})
+    points.points.push_back({k, {1, 2, 3}, shifted * (g.truth.T_world_segment[k] * Eigen::Vector3d(1, 2, 3)),
+                             Eigen::Matrix3d::Identity() * 1e4});
+  one_pose.absolute.push_back({3, shifted * g.truth.T_world_segment[3], Matrix6d::Identity() * 1e6});
+  for (const auto* relations : {&points, &one_pose}) {
+    const auto result = solve_pose_graph(g.drifted, {}, relations, least_squares(), in_order);
+    double worst = 0;
+    for (std::size_t k = 0; k < g.truth.size(); ++k)
+      worst = std::max(worst, (result.poses.T_world_segment[k].translation -
+                               (shifted * g.truth.T_world_segment[k]).translation).norm());
+    EXPECT_LT(worst, 0.5);
+  }
+}
+
+TEST(Relations, PlanarOnesLeaveHeightRollAndPitchAlone) {
+  auto g = circle(20, 2, 3);
+  for (auto* poses : {&g.truth, &g.drifted})
+    for (auto& pose : poses->T_world_segment) {
+      pose.translation.z() = 0;
+      pose.rotation.x() = pose.rotation.y() = 0;
+      pose.rotation.normalize();
+    }
+  auto relations = relations_of(g, 6);
+  relations.planar = true;
+  const auto result = solve_pose_graph(g.drifted, {}, &relations, least_squares(), in_order);
+  for (const auto& pose : result.poses.T_world_segment) {
+    EXPECT_EQ(pose.translation.z(), 0);
+    EXPECT_EQ(pose.rotation.x(), 0);
+  }
+  EXPECT_LT(ate(result.poses, g.truth), 0.2);
+}
+
+TEST(Relations, WithANegativeInformationAreRefused) {
+  auto g = circle(5, 1, 3);
+  auto relations = relations_of(g, 6);
+  relations.relative[0].information(2, 2) = -5;
+  EXPECT_THROW(solve_pose_graph(g.drifted, {}, &relations, least_squares(), in_order), Error);
+}
+
+}  // namespace
+}  // namespace plumb

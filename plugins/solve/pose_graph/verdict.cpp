@@ -1,0 +1,94 @@
+#include "verdict.hpp"
+
+#include "parts.hpp"
+
+namespace plumb {
+
+const char* fate_of(double mean_weight) {
+  return mean_weight >= kept_from         ? "kept"
+         : mean_weight >= rejected_under ? "down-weighted"
+                                          : "rejected";
+}
+
+void Verdict::add(const EdgeState& state) {
+  const auto& e = state.edge();
+  const auto pairs = static_cast<std::uint32_t>(state.pairs());
+  EdgeRecord record{e.i, e.j, e.kind, state.found(), pairs, 0, 0, "no matches"};
+  if (pairs > 0) {
+    record.residual = state.rms();
+    record.weight = state.mean_weight();
+    record.fate = fate_of(record.weight);
+    pairs_ += pairs;
+    squares_ += state.weighted_squares();
+    weights_ += state.weight_sum();
+    support_[e.i] += state.weight_sum();
+    support_[e.j] += state.weight_sum();
+  }
+  records_.push_back(std::move(record));
+}
+
+void Verdict::add(const RelativePose& r, double residual, double weight) {
+  const auto kind = r.j == r.i + 1 ? EdgeKind::sequential : EdgeKind::loop;
+  records_.push_back({r.i, r.j, kind, 1, 1, residual, weight, fate_of(weight)});
+  squares_ += weight * residual * residual;
+  weights_ += weight;
+  relations_ = true;
+}
+
+Metrics Verdict::metrics(double cost_before, double cost_after, int rounds, int iterations) {
+  const auto with_fate = [&](std::string_view fate) {
+    return static_cast<double>(std::count_if(records_.begin(), records_.end(),
+                                             [&](const auto& r) { return r.fate == fate; }));
+  };
+  Metrics metrics;
+  metrics.add("residual", weights_ > 0 ? std::sqrt(squares_ / weights_) : 0, "m")
+      .add("cost_before", cost_before, "")
+      .add("cost_after", cost_after, "")
+      .add("pairs", static_cast<double>(pairs_), "")
+      .add("edges", static_cast<double>(records_.size()), "")
+      .add("edges_kept", with_fate("kept"), "")
+      .add("edges_down_weighted", with_fate("down-weighted"), "")
+      .add("edges_rejected", with_fate("rejected"), "")
+      .add("edges_without_matches", with_fate("no matches"), "")
+      .add("rounds", rounds, "")
+      .add("iterations", iterations, "");
+  metrics.notes = notes();
+  metrics.edges = std::move(records_);
+  return metrics;
+}
+
+std::vector<std::string> Verdict::notes() const {
+  std::vector<std::string> notes;
+  Parts firm(support_.size());
+  for (const auto& r : records_)
+    if (r.fate == "kept" || r.fate == "down-weighted") firm.join(r.i, r.j);
+  const auto parts = firm.list();
+  for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
+    notes.push_back("segments " + runs_of(parts[n]) +
+                    " are not joined to the rest by any edge that was kept");
+  if (relations_) return notes;
+  std::vector<std::uint32_t> weak;
+  for (std::uint32_t v = 0; v < support_.size(); ++v)
+    if (support_[v] < 10) weak.push_back(v);
+  if (!weak.empty())
+    notes.push_back("segments " + runs_of(weak) + " are held by fewer than 10 pairs each");
+  return notes;
+}
+
+std::vector<std::string> Verdict::warnings(
+    const std::vector<std::vector<std::uint32_t>>& parts) const {
+  if (parts.size() < 2) return {};
+  std::string sentence = "the graph falls into " + std::to_string(parts.size()) + " parts (segments ";
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    if (n == 6 && parts.size() > 7) {
+      sentence += "; and " + std::to_string(parts.size() - n) + " more";
+      break;
+    }
+    sentence += (n ? "; " : "") + runs_of(parts[n]);
+  }
+  return {sentence + "), which no edge with pairs joins: each is solved by itself and keeps its place "
+                     "after the segment before it; give more edges, or odometry_translation and "
+                     "odometry_rotation"};
+}
+
+}  // namespace plumb

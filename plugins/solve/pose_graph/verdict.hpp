@@ -1,0 +1,34 @@
+#pragma once
+/// What the solved graph says of itself: numbers, each edge's fate, and what is weak.
+
+#include "edge_state.hpp"
+
+namespace plumb {
+
+/// Mean weight from which an edge counts as kept, and under which as rejected; between them it is down-weighted.
+inline constexpr double kept_from = 0.5, rejected_under = 0.05;
+const char* fate_of(double mean_weight);
+
+class Verdict {
+ public:
+  explicit Verdict(std::size_t poses) : support_(poses, 0.0) {}
+  void add(const EdgeState& edge);
+  /// A relation with the distance [m] that is left, and its robust weight.
+  void add(const RelativePose& relation, double residual, double weight);
+  void joined_by_prior() { prior_ = true; }
+
+  Metrics metrics(double cost_before, double cost_after, int rounds, int iterations);
+  /// One sentence if the graph falls apart.
+  std::vector<std::string> warnings(const std::vector<std::vector<std::uint32_t>>& parts) const;
+
+ private:
+  std::vector<std::string> notes() const;
+
+  std::vector<EdgeRecord> records_;
+  std::vector<double> support_;  ///< of each pose: pairs that hold it, by weight
+  double squares_ = 0, weights_ = 0;
+  std::uint64_t pairs_ = 0;
+  bool relations_ = false, prior_ = false;
+};
+
+}  // namespace plumb
