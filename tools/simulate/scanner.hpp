@@ -2,6 +2,7 @@
 /// A spinning multi-line laser scanner.
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "plumb/data/cloud.hpp"
@@ -14,8 +15,8 @@ namespace plumb::simulate {
 struct ScannerOptions {
   int lines = 64;
   int columns = 1024;
-  double lowest = -0.28972465583105868;  ///< elevation of the lowest line [rad], -16.6 deg
-  double highest = 0.28972465583105868;  ///< of the highest [rad]
+  double lowest = -16.6 * (std::numbers::pi / 180);  ///< elevation of the lowest line [rad]
+  double highest = 16.6 * (std::numbers::pi / 180);  ///< of the highest [rad]
   double noise = 0.02;  ///< deviation of the range [m], nearly normal, never beyond 3.47 deviations
   double range = 120;   ///< greatest range [m]
 };
