@@ -46,7 +46,7 @@ TEST(SearchTree, AnswersAsBruteForceBitByBitAlsoAmongTies) {
     for (const std::size_t n : {1, 2, 7, 8, 9, 16, 17, 33, 100, 1000, 3001}) {
       const Points points = random_points(n, static_cast<unsigned>(n), step);
       const SearchTree tree(points);
-      const Points queries = random_points(60, 99, step);
+      const Points queries = random_points(30, 99, step);
       for (std::size_t j = 0; j < queries.x.size(); ++j) {
         const float spread = j % 5 == 0 ? 4.0f : 1.0f;  // some far outside
         const Eigen::Vector3f q =

@@ -71,7 +71,7 @@ TEST(DamagedCloudFile, WithAnyByteChangedGivesACloudOrAnError) {
   const TestFolder folder;
   for (const auto& [name, bytes] : samples())
     for (std::size_t place = 0; place < bytes.size(); ++place)
-      for (const unsigned char change : {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80, 0xff}) {
+      for (const unsigned char change : {0x01, 0x08, 0x40, 0xff}) {
         std::string damaged = bytes;
         damaged[place] = static_cast<char>(damaged[place] ^ change);
         gives_a_sound_cloud(folder.write(name, damaged), bytes.size());
