@@ -1,6 +1,7 @@
 #pragma once
-/// For tests of a step as the engine sees it: inputs by port name, parameters by name, outputs by port name.
-/// A test of a module includes this, and plumb_module() of the module itself is linked in.
+/// For tests of a step as the engine sees it: inputs by port name, parameters by name, outputs by
+/// port name. A test of a module includes this, and plumb_module() of the module itself is linked
+/// in.
 ///
 ///   StepRun step(*plumb_module());
 ///   step.with("matches", matches).at("poses", T_i_j).set("max", 0.5);

@@ -26,7 +26,10 @@ class LoopSearch {
   using Alike = std::function<double(std::uint32_t, std::uint32_t)>;
 
   LoopSearch(const Places& places, const Alike& alike, const LoopOptions& options)
-      : places_(places), alike_(alike), options_(options), count_(static_cast<std::uint32_t>(places.positions.size())) {
+      : places_(places),
+        alike_(alike),
+        options_(options),
+        count_(static_cast<std::uint32_t>(places.positions.size())) {
     std::vector<double> steps, similarities;
     path_.assign(count_, 0);
     for (std::uint32_t k = 0; k + 1 < count_; ++k) {
@@ -36,7 +39,8 @@ class LoopSearch {
     }
     found_.least_path_gap = options.least_path_gap.value_or(4 * median(steps));
     found_.reach = options.reach.value_or(2 * median(steps));
-    found_.threshold = options.threshold.value_or(options.relative_threshold * median(similarities));
+    found_.threshold =
+        options.threshold.value_or(options.relative_threshold * median(similarities));
     found_.edges.segments = count_;
     loops_of_.assign(count_, 0);
   }
@@ -71,13 +75,15 @@ class LoopSearch {
   }
   /// Whether an edge would be new to an end that has too few.
   bool wanted(std::uint32_t i, std::uint32_t j) const {
-    return std::min(loops_of_[i], loops_of_[j]) < options_.loops_per_segment && !taken_.contains({i, j});
+    return std::min(loops_of_[i], loops_of_[j]) < options_.loops_per_segment &&
+           !taken_.contains({i, j});
   }
   void add(std::uint32_t i, std::uint32_t j, double similarity) {
     taken_.insert({i, j});
     ++loops_of_[i];
     ++loops_of_[j];
-    found_.edges.list.push_back({i, j, EdgeKind::loop, static_cast<float>(similarity), static_cast<float>(distance(i, j))});
+    found_.edges.list.push_back(
+        {i, j, EdgeKind::loop, static_cast<float>(similarity), static_cast<float>(distance(i, j))});
   }
 
   /// Every segment with each of its partners, once, the most similar pair first.
@@ -110,8 +116,8 @@ class LoopSearch {
   std::vector<Seed> walk(const Seed& seed, int way) const {
     std::vector<Seed> pairs;
     for (const int side : {+1, -1})
-      for (std::int64_t i = seed.i + side, j = seed.j + side * way; i >= 0 && j >= 0 && i < j && j < count_;
-           i += side, j += side * way) {
+      for (std::int64_t i = seed.i + side, j = seed.j + side * way;
+           i >= 0 && j >= 0 && i < j && j < count_; i += side, j += side * way) {
         const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>(j);
         if (!allowed(a, b)) break;
         const double similarity = alike_(a, b);
@@ -133,7 +139,8 @@ class LoopSearch {
 
 }  // namespace
 
-Loops find_loops(const Places& places, const std::function<double(std::uint32_t, std::uint32_t)>& alike,
+Loops find_loops(const Places& places,
+                 const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options) {
   return LoopSearch(places, alike, options).run();
 }

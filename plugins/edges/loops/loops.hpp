@@ -15,31 +15,36 @@ struct Places {
   std::vector<Eigen::Vector3d> centroids;  ///< of its cloud
 };
 
+/// In metres, ratios and similarities from 0 to 1. The step is the way from one segment to the
+/// next.
 struct LoopOptions {
-  std::uint32_t candidates = 3;           ///< nearest centroids that are compared by similarity
-  std::optional<double> least_path_gap;   ///< [m] of path between two passes; none: 4 x the median step
-  std::optional<double> reach;            ///< [m] between centroids, drift not counted; none: 2 x the median step
-  double drift = 0.03;                    ///< of the path between two passes, added to `reach`
-  std::optional<double> threshold;        ///< least similarity; none: relative_threshold x that of consecutive segments
-  double relative_threshold = 0.7;
-  std::uint32_t loops_per_segment = 2;    ///< edges are added until both ends have so many
+  std::uint32_t candidates = 3;          ///< nearest centroids that are compared by similarity
+  std::optional<double> least_path_gap;  ///< between two passes; none: 4 x the median step
+  std::optional<double> reach;           ///< of centroids, without drift; none: 2 x the median step
+  double drift = 0.03;                   ///< of the path between two passes, added to `reach`
+  std::optional<double> threshold;       ///< least similarity; none: relative, as follows
+  double relative_threshold = 0.7;       ///< of the median similarity of consecutive segments
+  std::uint32_t loops_per_segment = 2;   ///< edges are added until both ends have so many
 };
 
 struct Loops {
-  Edges edges;                                       ///< kind loop, scores are similarities
+  Edges edges;                                          ///< kind loop, scores are similarities
   double threshold = 0, least_path_gap = 0, reach = 0;  ///< as they were used
-  std::size_t walks = 0;                             ///< loops that were begun
+  std::size_t walks = 0;                                ///< loops that were begun
 };
 
 /// `alike(i, j)` is the similarity of two segments, 0 to 1, symmetric.
 ///
-/// For each segment, those of its `candidates` nearest centroids that are most similar are its partners. A partner lies at least
-/// least_path_gap along the path away, is not next in order, and is not farther than reach + drift x the path between. The most
-/// similar pair (i, j) of all is the first edge; from it edges are added to both sides, (i-1, j-1), (i+1, j+1), ... or (i-1, j+1),
-/// (i+1, j-1), ..., whichever way has the greater sum of similarities, until the threshold or what a partner may be is not met.
-/// Then the same from the most similar pair that is left and has an end with too few edges. So there are at most
-/// loops_per_segment x segments edges. Source: [Tang2024] 2.3.1; the second way and the later walks are ours.
-Loops find_loops(const Places& places, const std::function<double(std::uint32_t, std::uint32_t)>& alike,
+/// For each segment, those of its `candidates` nearest centroids that are most similar are its
+/// partners. A partner lies at least least_path_gap along the path away, is not next in order, and
+/// is not farther than reach + drift x the path between. The most similar pair (i, j) of all is the
+/// first edge; from it edges are added to both sides, (i-1, j-1), (i+1, j+1), ... or (i-1, j+1),
+/// (i+1, j-1), ..., whichever way has the greater sum of similarities, until the threshold or what
+/// a partner may be is not met. Then the same from the most similar pair that is left and has an
+/// end with too few edges. So there are at most loops_per_segment x segments edges. Source:
+/// [Tang2024] 2.3.1; the second way and the later walks are ours.
+Loops find_loops(const Places& places,
+                 const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options);
 
 }  // namespace plumb

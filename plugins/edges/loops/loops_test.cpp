@@ -22,9 +22,12 @@ struct Drive {
   }
   Places places() const { return {drifted, drifted}; }
   /// Looks fade over 20 m.
-  double alike(std::uint32_t i, std::uint32_t j) const { return std::exp(-(truth[i] - truth[j]).norm() / 20); }
+  double alike(std::uint32_t i, std::uint32_t j) const {
+    return std::exp(-(truth[i] - truth[j]).norm() / 20);
+  }
   Loops loops(const LoopOptions& options = {}) const {
-    return find_loops(places(), [this](auto i, auto j) { return alike(i, j); }, options);
+    return find_loops(
+        places(), [this](auto i, auto j) { return alike(i, j); }, options);
   }
 };
 
@@ -60,7 +63,8 @@ TEST(Loops, PairTheWayBackWithTheWayOut) {
     EXPECT_EQ(e.i + e.j, 39u) << e.i << " " << e.j;
     covered.insert(e.i);
   }
-  EXPECT_GE(covered.size(), 17u);  // all but those by the turning point, with too little path between
+  EXPECT_GE(covered.size(),
+            17u);  // all but those by the turning point, with too little path between
 }
 
 TEST(Loops, PairTheSecondRoundWithTheFirst) {
@@ -99,7 +103,8 @@ TEST(Loops, StayWithinWhatDriftExplains) {
   auto options = once();
   options.drift = 0;
   options.reach = 3;
-  for (const Edge& e : out_and_back(30).loops(options).edges.list) EXPECT_LE(e.centroid_distance, 3);
+  for (const Edge& e : out_and_back(30).loops(options).edges.list)
+    EXPECT_LE(e.centroid_distance, 3);
 }
 
 TEST(Loops, EndTheirWalkAtTheThreshold) {
@@ -132,14 +137,17 @@ TEST(Loops, GrowNoFasterThanTheSegments) {
 TEST(Loops, AreOrderedAndEachPairOnce) {
   const auto edges = twice_round(30).loops().edges;
   for (std::size_t k = 1; k < edges.size(); ++k)
-    EXPECT_LT(std::pair(edges.list[k - 1].i, edges.list[k - 1].j), std::pair(edges.list[k].i, edges.list[k].j));
+    EXPECT_LT(std::pair(edges.list[k - 1].i, edges.list[k - 1].j),
+              std::pair(edges.list[k].i, edges.list[k].j));
   EXPECT_EQ(edges.segments, 60u);
 }
 
 /// A histogram with a bump that moves along with the place.
 Descriptor look_of(const Eigen::Vector3d& place) {
   Descriptor d;
-  for (int k = 0; k < 64; ++k) d.values.push_back(static_cast<float>(0.05 * std::exp(-std::pow((k - 0.2 * place.x()) / 4, 2))));
+  for (int k = 0; k < 64; ++k)
+    d.values.push_back(
+        static_cast<float>(0.05 * std::exp(-std::pow((k - 0.2 * place.x()) / 4, 2))));
   return d;
 }
 StepRun step_for(const Drive& drive) {
@@ -150,14 +158,18 @@ StepRun step_for(const Drive& drive) {
     poses.T_world_segment.push_back({Eigen::Quaterniond::Identity(), drive.drifted[k]});
   }
   StepRun step(*plumb_module());
-  step.each("descriptors", descriptors).each("segments", std::vector<Segment>(drive.truth.size())).with("poses", poses);
+  step.each("descriptors", descriptors)
+      .each("segments", std::vector<Segment>(drive.truth.size()))
+      .with("poses", poses);
   return step;
 }
 
 TEST(LoopEdges, AreFoundFromDescriptorsWithEachSimilarity) {
   for (const std::string name : {"inverse_difference", "cosine", "chi_square"}) {
     TestContext context;
-    const auto edges = step_for(out_and_back(20)).set("similarity", name).set("loops_per_segment", std::int64_t(1))
+    const auto edges = step_for(out_and_back(20))
+                           .set("similarity", name)
+                           .set("loops_per_segment", std::int64_t(1))
                            .run<Edges>("edges", context);
     EXPECT_GE(edges.size(), 15u) << name;
     for (const Edge& e : edges.list) EXPECT_NEAR(e.i + e.j, 39, 2) << name;

@@ -8,7 +8,8 @@
 namespace plumb {
 namespace {
 
-double inverse_difference(const std::vector<float>& a, const std::vector<float>& b, double epsilon) {
+double inverse_difference(const std::vector<float>& a, const std::vector<float>& b,
+                          double epsilon) {
   double sum = 0, weights = 0;
   const auto bins = static_cast<double>(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -41,14 +42,18 @@ double chi_square(const std::vector<float>& a, const std::vector<float>& b) {
 
 }  // namespace
 
-double similarity(const std::vector<float>& a, const std::vector<float>& b, Similarity measure, double epsilon) {
+double similarity(const std::vector<float>& a, const std::vector<float>& b, Similarity measure,
+                  double epsilon) {
   if (a.size() != b.size())
     throw Error("descriptors of " + std::to_string(a.size()) + " and " + std::to_string(b.size()) +
                 " numbers cannot be compared: describe all segments in the same way");
   switch (measure) {
-    case Similarity::inverse_difference: return inverse_difference(a, b, epsilon);
-    case Similarity::cosine: return cosine(a, b);
-    case Similarity::chi_square: return chi_square(a, b);
+    case Similarity::inverse_difference:
+      return inverse_difference(a, b, epsilon);
+    case Similarity::cosine:
+      return cosine(a, b);
+    case Similarity::chi_square:
+      return chi_square(a, b);
   }
   return 0;
 }

@@ -11,12 +11,15 @@ enum class Similarity {
   chi_square,          ///< 1 - sum (a - b)^2 / (a + b) / sum (a + b); for histograms
 };
 
-/// 1 for equal descriptors, else less; the same both ways; 0 where nothing can be compared (all bins empty in both). All numbers are
-/// expected to be finite, and not negative. Throws Error when the lengths differ.
+/// 1 for equal descriptors, else less; the same both ways; 0 where nothing can be compared (all
+/// bins empty in both). All numbers are expected to be finite, and not negative. Throws Error when
+/// the lengths differ.
 ///
-/// inverse_difference: [Tang2024] eq. 1 is 1/K sum_k w_k / |a_k - b_k|, w_k = 1 - k/K, k = 1 .. K, which is infinite where two bins
-/// agree, and many ESF bins are 0 in both. Ours: sum w_k epsilon / (|a_k - b_k| + epsilon) / sum w_k over the bins that are not
-/// empty in both. `epsilon` is the difference that counts as agreement (the noise of the descriptor's own sampling).
-double similarity(const std::vector<float>& a, const std::vector<float>& b, Similarity measure, double epsilon);
+/// inverse_difference: [Tang2024] eq. 1 is 1/K sum_k w_k / |a_k - b_k|, w_k = 1 - k/K, k = 1 .. K,
+/// which is infinite where two bins agree, and many ESF bins are 0 in both. Ours: sum w_k epsilon /
+/// (|a_k - b_k| + epsilon) / sum w_k over the bins that are not empty in both. `epsilon` is the
+/// difference that counts as agreement (the noise of the descriptor's own sampling).
+double similarity(const std::vector<float>& a, const std::vector<float>& b, Similarity measure,
+                  double epsilon);
 
 }  // namespace plumb

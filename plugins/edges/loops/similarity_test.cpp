@@ -10,7 +10,8 @@
 namespace plumb {
 namespace {
 
-constexpr Similarity every[] = {Similarity::inverse_difference, Similarity::cosine, Similarity::chi_square};
+constexpr Similarity every[] = {Similarity::inverse_difference, Similarity::cosine,
+                                Similarity::chi_square};
 
 /// A histogram of `bins` bins with sum 1, a third of them empty.
 std::vector<float> histogram(std::size_t bins, std::uint64_t seed) {
@@ -45,21 +46,25 @@ TEST(Similarity, IsFiniteWhereSomeBinsAgree) {
   const double s = similarity(a, b, Similarity::inverse_difference, 1e-4);
   EXPECT_TRUE(std::isfinite(s));
   EXPECT_LT(s, 1);
-  EXPECT_GT(s, similarity(histogram(640, 1), histogram(640, 2), Similarity::inverse_difference, 1e-4));
+  EXPECT_GT(s,
+            similarity(histogram(640, 1), histogram(640, 2), Similarity::inverse_difference, 1e-4));
 }
 
 TEST(Similarity, LeavesOutBinsThatAreEmptyInBoth) {
-  // Weights 1 - k/K depend on the place, so the empty bins come last, in front of the weightless end.
+  // Weights 1 - k/K depend on the place, so the empty bins come last, in front of the weightless
+  // end.
   std::vector<float> a = {0.5f, 0.5f, 0, 0}, b = {0.5f, 0.25f, 0, 0};
   const double w1 = 0.75, w2 = 0.5, agreement = 0.01 / 0.26;
-  EXPECT_NEAR(similarity(a, b, Similarity::inverse_difference, 0.01), (w1 + w2 * agreement) / (w1 + w2), 1e-9);
+  EXPECT_NEAR(similarity(a, b, Similarity::inverse_difference, 0.01),
+              (w1 + w2 * agreement) / (w1 + w2), 1e-9);
 }
 
 TEST(Similarity, IsEquationOneTimesEpsilonWhereNoBinsAreNear) {
   const std::vector<float> a = {1, 5, 2, 7}, b = {4, 1, 8, 3};
   const double equation_one = (0.75 / 3 + 0.5 / 4 + 0.25 / 6 + 0) / 4;
   const double weights = 0.75 + 0.5 + 0.25;
-  EXPECT_NEAR(similarity(a, b, Similarity::inverse_difference, 1e-9) / 1e-9, 4 * equation_one / weights, 1e-8);
+  EXPECT_NEAR(similarity(a, b, Similarity::inverse_difference, 1e-9) / 1e-9,
+              4 * equation_one / weights, 1e-8);
 }
 
 TEST(Similarity, FallsAsDescriptorsPart) {

@@ -28,7 +28,8 @@ struct LoopEdges : WholeStep {
     is.input("poses", &In::poses, "where the segments are at present");
     is.output("edges", &Out::edges, "loop edges; the score is the similarity");
     is.choice("similarity", &Params::similarity,
-              {{"inverse_difference", Similarity::inverse_difference, "eq. 1, guarded where bins agree"},
+              {{"inverse_difference", Similarity::inverse_difference,
+                "eq. 1, guarded where bins agree"},
                {"cosine", Similarity::cosine, "of the angle between the vectors"},
                {"chi_square", Similarity::chi_square, "1 - chi-square distance of histograms"}})
         .doc("how alike two descriptors are");
@@ -55,7 +56,10 @@ struct LoopEdges : WholeStep {
     is.param("threshold", as_own(&LoopOptions::threshold))
         .range(0, 1)
         .doc("least similarity; none: 'relative_threshold' x the median of consecutive segments");
-    is.param("relative_threshold", as_own(&LoopOptions::relative_threshold)).unit("%").range(0, 10).doc("see 'threshold'");
+    is.param("relative_threshold", as_own(&LoopOptions::relative_threshold))
+        .unit("%")
+        .range(0, 10)
+        .doc("see 'threshold'");
     is.param("loops_per_segment", as_own(&LoopOptions::loops_per_segment))
         .range(1, 1000)
         .doc("edges are added until both ends have so many");
@@ -64,8 +68,9 @@ struct LoopEdges : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.descriptors.size() != count || in.poses->size() != count)
-      throw Error("there are " + std::to_string(count) + " segments, " + std::to_string(in.descriptors.size()) +
-                  " descriptors and " + std::to_string(in.poses->size()) +
+      throw Error("there are " + std::to_string(count) + " segments, " +
+                  std::to_string(in.descriptors.size()) + " descriptors and " +
+                  std::to_string(in.poses->size()) +
                   " poses: wire descriptors and poses of the same segments");
     Places places{std::vector<Eigen::Vector3d>(count), std::vector<Eigen::Vector3d>(count)};
     std::vector<One<Descriptor>> descriptors(count);
@@ -76,11 +81,13 @@ struct LoopEdges : WholeStep {
       descriptors[k] = in.descriptors.open(k);
     });
     const auto alike = [&](std::uint32_t i, std::uint32_t j) {
-      return similarity(descriptors[i]->values, descriptors[j]->values, params.similarity, params.epsilon);
+      return similarity(descriptors[i]->values, descriptors[j]->values, params.similarity,
+                        params.epsilon);
     };
     Loops loops = find_loops(places, alike, params);
     if (loops.edges.list.empty())
-      context.warn("no loop found: no two segments with " + written(loops.least_path_gap, Quantity::length) +
+      context.warn("no loop found: no two segments with " +
+                   written(loops.least_path_gap, Quantity::length) +
                    " of path between them lie near each other and look alike");
     context.count("loop edges", loops.edges.size());
     return {std::move(loops.edges)};

@@ -28,7 +28,8 @@ std::vector<Pair> meeting(const std::vector<Eigen::AlignedBox3d>& boxes, double 
   return pairs;
 }
 
-Neighbourhood neighbours(std::size_t count, const std::function<std::shared_ptr<const Segment>(std::size_t)>& segment,
+Neighbourhood neighbours(std::size_t count,
+                         const std::function<std::shared_ptr<const Segment>(std::size_t)>& segment,
                          const Poses& poses, const OverlapOptions& options, Context& context) {
   std::vector<Eigen::AlignedBox3d> boxes(count);
   std::vector<Eigen::Vector3d> centroids(count);
@@ -43,13 +44,15 @@ Neighbourhood neighbours(std::size_t count, const std::function<std::shared_ptr<
     voxels[k] = voxels_of(segment(k)->cloud, poses.T_world_segment[k], lattice);
   });
   const auto edge = [&](std::uint32_t i, std::uint32_t j, EdgeKind kind, double score) {
-    return Edge{i, j, kind, static_cast<float>(score), static_cast<float>((centroids[i] - centroids[j]).norm())};
+    return Edge{i, j, kind, static_cast<float>(score),
+                static_cast<float>((centroids[i] - centroids[j]).norm())};
   };
 
   Neighbourhood result;
   const std::size_t steps = count > 0 ? count - 1 : 0;
   std::vector<double> consecutive(steps);
-  context.parallel(steps, [&](std::size_t k) { consecutive[k] = overlap(voxels[k], voxels[k + 1]); });
+  context.parallel(steps,
+                   [&](std::size_t k) { consecutive[k] = overlap(voxels[k], voxels[k + 1]); });
   double smallest = 1;
   for (std::uint32_t k = 0; k < steps; ++k) {
     result.edges.list.push_back(edge(k, k + 1, EdgeKind::sequential, consecutive[k]));
@@ -66,7 +69,8 @@ Neighbourhood neighbours(std::size_t count, const std::function<std::shared_ptr<
   });
   for (std::size_t n = 0; n < pairs.size(); ++n)
     if (overlaps[n] > result.threshold)
-      result.edges.list.push_back(edge(pairs[n].first, pairs[n].second, EdgeKind::neighbour, overlaps[n]));
+      result.edges.list.push_back(
+          edge(pairs[n].first, pairs[n].second, EdgeKind::neighbour, overlaps[n]));
   std::ranges::sort(result.edges.list, {}, [](const Edge& e) { return Pair(e.i, e.j); });
   result.edges.segments = static_cast<std::uint32_t>(count);
   result.compared = pairs.size();

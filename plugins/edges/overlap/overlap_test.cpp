@@ -23,16 +23,20 @@ Segment segment_of(Cloud cloud) {
   std::vector<std::uint16_t> frames(cloud.size(), 0);
   return Segment().with(std::move(cloud), std::move(frames));
 }
-Pose at(double x, double y, double z, double yaw = 0) { return {exp_rotation({0, 0, yaw}), {x, y, z}}; }
+Pose at(double x, double y, double z, double yaw = 0) {
+  return {exp_rotation({0, 0, yaw}), {x, y, z}};
+}
 
 using Cell = std::array<std::int64_t, 3>;
 Cell cell_of(const Eigen::Vector3d& world, double size) {
   const Eigen::Vector3d c = (world / size).array().floor();
-  return {static_cast<std::int64_t>(c.x()), static_cast<std::int64_t>(c.y()), static_cast<std::int64_t>(c.z())};
+  return {static_cast<std::int64_t>(c.x()), static_cast<std::int64_t>(c.y()),
+          static_cast<std::int64_t>(c.z())};
 }
 
 /// Straight from the definition: for each point, whether the other cloud has a point in its voxel.
-double brute_force_overlap(const Cloud& a, const Pose& T_a, const Cloud& b, const Pose& T_b, double size) {
+double brute_force_overlap(const Cloud& a, const Pose& T_a, const Cloud& b, const Pose& T_b,
+                           double size) {
   const auto world = [](const Cloud& c, const Pose& T, std::size_t k) -> Eigen::Vector3d {
     return T * c.point(k).cast<double>().eval();
   };
@@ -45,19 +49,22 @@ double brute_force_overlap(const Cloud& a, const Pose& T_a, const Cloud& b, cons
   return static_cast<double>(both) / static_cast<double>(a.size() + b.size());
 }
 
-double overlap_of(const Cloud& a, const Pose& T_a, const Cloud& b, const Pose& T_b, double size, double least = 0) {
+double overlap_of(const Cloud& a, const Pose& T_a, const Cloud& b, const Pose& T_b, double size,
+                  double least = 0) {
   const auto lattice = lattice_over({world_box(box_of(a), T_a), world_box(box_of(b), T_b)}, size);
   return overlap(voxels_of(a, T_a, lattice), voxels_of(b, T_b, lattice), least);
 }
 
 TEST(Overlap, AgreesWithBruteForce) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const Cloud a = random_cloud(3000, {20, 10, 3}, seed), b = random_cloud(2000, {15, 15, 4}, seed + 100);
+    const Cloud a = random_cloud(3000, {20, 10, 3}, seed),
+                b = random_cloud(2000, {15, 15, 4}, seed + 100);
     const Pose T_a = at(3.3, -100, 7, 0.3 * static_cast<double>(seed)), T_b = at(9, -104, 8, -1.0);
     for (const double size : {0.5, 1.0, 3.0}) {
       const double judge = brute_force_overlap(a, T_a, b, T_b, size);
       EXPECT_DOUBLE_EQ(overlap_of(a, T_a, b, T_b, size), judge);
-      EXPECT_DOUBLE_EQ(overlap_of(a, T_a, b, T_b, size, 0.9 * judge), judge) << "not pruned too early";
+      EXPECT_DOUBLE_EQ(overlap_of(a, T_a, b, T_b, size, 0.9 * judge), judge)
+          << "not pruned too early";
       EXPECT_GT(judge, 0.01);
     }
   }
@@ -66,7 +73,8 @@ TEST(Overlap, AgreesWithBruteForce) {
 TEST(Overlap, IsOneWithItselfAndTheSameBothWays) {
   const Cloud a = random_cloud(500, {9, 9, 2}, 1), b = random_cloud(700, {9, 5, 2}, 2);
   EXPECT_DOUBLE_EQ(overlap_of(a, at(1, 2, 3), a, at(1, 2, 3), 0.5), 1);
-  EXPECT_DOUBLE_EQ(overlap_of(a, at(1, 2, 3), b, at(3, 2, 3), 0.5), overlap_of(b, at(3, 2, 3), a, at(1, 2, 3), 0.5));
+  EXPECT_DOUBLE_EQ(overlap_of(a, at(1, 2, 3), b, at(3, 2, 3), 0.5),
+                   overlap_of(b, at(3, 2, 3), a, at(1, 2, 3), 0.5));
 }
 
 TEST(Overlap, CountsThePointsInSharedVoxels) {
@@ -92,7 +100,8 @@ TEST(Morton, NestsEightVoxelsInOne) {
   EXPECT_EQ(morton(0, 1, 0), 2u);
   EXPECT_EQ(morton(0, 0, 1), 4u);
   EXPECT_EQ(morton((1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1), (1ull << 63) - 1);
-  for (std::uint32_t x : {5u, 77777u, 2000001u}) EXPECT_EQ(morton(x, x + 3, x / 2) >> 3, morton(x / 2, (x + 3) / 2, x / 4));
+  for (std::uint32_t x : {5u, 77777u, 2000001u})
+    EXPECT_EQ(morton(x, x + 3, x / 2) >> 3, morton(x / 2, (x + 3) / 2, x / 4));
 }
 
 TEST(Meeting, FindsThePairsThatComparingEachWithEachFinds) {
@@ -119,7 +128,8 @@ struct OutAndBack {
   Poses poses;
   OutAndBack(int count, double step, double far_off = 0) {
     for (int k = 0; k < count; ++k) {
-      segments.push_back(segment_of(random_cloud(4000, {10, 5, 1}, static_cast<std::uint64_t>(k) + 1)));
+      segments.push_back(
+          segment_of(random_cloud(4000, {10, 5, 1}, static_cast<std::uint64_t>(k) + 1)));
       const double x = step * std::min(k, count - 1 - k);
       poses.T_world_segment.push_back(at(k == count - 1 ? x + far_off : x, 0, 0));
     }
@@ -138,8 +148,8 @@ TEST(OverlapEdges, AreThosePairsThatBruteForceFinds) {
   const Edges edges = drive.run(context);
   std::vector<double> judge;
   const auto pair = [&](std::uint32_t i, std::uint32_t j) {
-    return brute_force_overlap(drive.segments[i].cloud, drive.poses.T_world_segment[i], drive.segments[j].cloud,
-                               drive.poses.T_world_segment[j], 2);
+    return brute_force_overlap(drive.segments[i].cloud, drive.poses.T_world_segment[i],
+                               drive.segments[j].cloud, drive.poses.T_world_segment[j], 2);
   };
   double smallest = 1;
   for (std::uint32_t k = 0; k < 9; ++k) smallest = std::min(smallest, pair(k, k + 1));
@@ -168,8 +178,7 @@ TEST(OverlapEdges, SayThatConsecutiveSegmentsDoNotOverlapAndGoOn) {
   EXPECT_THAT(context.warnings[0], testing::HasSubstr("segments 6 and 7"));
   const auto sequential = std::ranges::count(edges.list, EdgeKind::sequential, &Edge::kind);
   EXPECT_EQ(sequential, 7);
-  for (const Edge& e : edges.list)
-    EXPECT_TRUE(e.kind == EdgeKind::sequential || e.score > 0.05f);
+  for (const Edge& e : edges.list) EXPECT_TRUE(e.kind == EdgeKind::sequential || e.score > 0.05f);
 }
 
 TEST(OverlapEdges, FollowAGivenThreshold) {
@@ -181,12 +190,20 @@ TEST(OverlapEdges, FollowAGivenThreshold) {
 
 TEST(OverlapEdges, OfNoneAndOfOneAndOfEmptySegments) {
   TestContext context;
-  EXPECT_EQ(StepRun(*plumb_module()).each("segments", std::vector<Segment>()).with("poses", Poses())
-                .run<Edges>("edges", context).size(), 0u);
+  EXPECT_EQ(StepRun(*plumb_module())
+                .each("segments", std::vector<Segment>())
+                .with("poses", Poses())
+                .run<Edges>("edges", context)
+                .size(),
+            0u);
   Poses three;
   three.T_world_segment.resize(3);
-  EXPECT_EQ(StepRun(*plumb_module()).each("segments", std::vector<Segment>(3)).with("poses", three)
-                .run<Edges>("edges", context).size(), 2u);
+  EXPECT_EQ(StepRun(*plumb_module())
+                .each("segments", std::vector<Segment>(3))
+                .with("poses", three)
+                .run<Edges>("edges", context)
+                .size(),
+            2u);
   EXPECT_EQ(context.warnings.size(), 2u);
 }
 

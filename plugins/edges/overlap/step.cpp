@@ -28,7 +28,9 @@ struct OverlapEdges : WholeStep {
     is.param("threshold", &Params::threshold)
         .unit("%")
         .range(0, 1)
-        .doc("pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of consecutive segments");
+        .doc(
+            "pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of "
+            "consecutive segments");
     is.param("margin", &Params::margin).unit("%").range(0.01, 1).doc("see 'threshold'");
     is.param("least", &Params::least)
         .unit("%")
@@ -39,10 +41,11 @@ struct OverlapEdges : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count)
-      throw Error("there are " + std::to_string(count) + " segments and " + std::to_string(in.poses->size()) +
-                  " poses: wire poses of the same segments");
-    auto found = neighbours(count, [&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses, params,
-                            context);
+      throw Error("there are " + std::to_string(count) + " segments and " +
+                  std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
+    auto found = neighbours(
+        count, [&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses, params,
+        context);
     for (const auto k : found.disconnected)
       context.warn("segments " + std::to_string(k) + " and " + std::to_string(k + 1) +
                    " follow each other but do not overlap");

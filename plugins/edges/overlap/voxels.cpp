@@ -58,13 +58,15 @@ Lattice lattice_over(const std::vector<Eigen::AlignedBox3d>& boxes, double size)
   Eigen::AlignedBox3d all;
   for (const auto& box : boxes) all.extend(box);
   if (all.isEmpty()) return {size, Eigen::Vector3d::Zero(), 1};
-  const Eigen::Vector3d first = (all.min() / size).array().floor() - 1;  // one to spare for rounding
+  const Eigen::Vector3d first =
+      (all.min() / size).array().floor() - 1;  // one to spare for rounding
   const double longest = ((all.max() / size).array().floor() + 2 - first.array()).maxCoeff();
   if (!(longest <= 1 << most_bits))
     throw Error("the segments reach over " + written(all.sizes().maxCoeff(), Quantity::length) +
                 ", too far for voxels of " + written(size, Quantity::length) +
                 ": take a larger 'voxel', or see whether the poses are right");
-  return {size, size * first, static_cast<int>(std::bit_width(static_cast<std::uint32_t>(longest)))};
+  return {size, size * first,
+          static_cast<int>(std::bit_width(static_cast<std::uint32_t>(longest)))};
 }
 
 std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -79,7 +81,8 @@ Voxels voxels_of(const Cloud& cloud, const Pose& T_world_segment, const Lattice&
   for (std::size_t k = 0; k < cloud.size(); ++k) {
     const Eigen::Vector3d cell = r * cloud.point(k).cast<double>() + t;
     if (!(cell.minCoeff() >= 0 && cell.maxCoeff() < 1 << most_bits)) continue;  // no finite number
-    codes.push_back(morton(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y()),
+    codes.push_back(morton(static_cast<std::uint32_t>(cell.x()),
+                           static_cast<std::uint32_t>(cell.y()),
                            static_cast<std::uint32_t>(cell.z())));
   }
   radix_sort(codes, 3 * lattice.bits);
@@ -107,8 +110,8 @@ double overlap(const Voxels& a, const Voxels& b, double least) {
   const auto both = static_cast<double>(a.points + b.points);
   if (a.points == 0 || b.points == 0) return 0;
   // Both lists are sorted: walk them side by side and show every common code's places to `found`.
-  const auto common = [](const auto& left, std::size_t l, std::size_t l_end, const auto& right, std::size_t r,
-                         std::size_t r_end, const auto& found) {
+  const auto common = [](const auto& left, std::size_t l, std::size_t l_end, const auto& right,
+                         std::size_t r, std::size_t r_end, const auto& found) {
     while (l < l_end && r < r_end) {
       const auto x = left[l], y = right[r];
       if (x == y) found(l, r);
@@ -118,15 +121,17 @@ double overlap(const Voxels& a, const Voxels& b, double least) {
   };
   std::uint64_t at_most = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
-  common(a.coarse, 0, a.coarse.size(), b.coarse, 0, b.coarse.size(), [&](std::size_t k, std::size_t n) {
-    at_most += a.coarse_counts[k] + b.coarse_counts[n];
-    shared.emplace_back(k, n);
-  });
+  common(a.coarse, 0, a.coarse.size(), b.coarse, 0, b.coarse.size(),
+         [&](std::size_t k, std::size_t n) {
+           at_most += a.coarse_counts[k] + b.coarse_counts[n];
+           shared.emplace_back(k, n);
+         });
   if (static_cast<double>(at_most) <= least * both) return 0;
   std::uint64_t points = 0;
   for (const auto& [k, n] : shared)
     common(a.codes, a.coarse_begin[k], a.coarse_begin[k + 1], b.codes, b.coarse_begin[n],
-           b.coarse_begin[n + 1], [&](std::size_t x, std::size_t y) { points += a.counts[x] + b.counts[y]; });
+           b.coarse_begin[n + 1],
+           [&](std::size_t x, std::size_t y) { points += a.counts[x] + b.counts[y]; });
   return static_cast<double>(points) / both;
 }
 

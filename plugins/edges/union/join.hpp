@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-/// All edges of `lists`, ordered by (i, j), each pair once: the first list to name a pair decides on kind and score.
-/// Throws Error when the lists are of different numbers of segments.
+/// All edges of `lists`, ordered by (i, j), each pair once: the first list to name a pair decides
+/// on kind and score. Throws Error when the lists are of different numbers of segments.
 Edges joined(const std::vector<const Edges*>& lists);
 
 }  // namespace plumb

@@ -24,8 +24,10 @@ TEST(UnionOfEdges, LetsTheFirstToNameAPairDecide) {
   EXPECT_EQ(joined({&a, &b}).list.front().kind, neighbour);
   EXPECT_EQ(joined({&b, &a}).list.front().kind, loop);
   TestContext context;
-  const auto all =
-      StepRun(*plumb_module()).add("edges", "a", a).add("edges", "b", b).run<Edges>("edges", context);
+  const auto all = StepRun(*plumb_module())
+                       .add("edges", "a", a)
+                       .add("edges", "b", b)
+                       .run<Edges>("edges", context);
   EXPECT_EQ(all.size(), 1u);
   EXPECT_EQ(context.counts["edges named more than once"], 1u);
 }

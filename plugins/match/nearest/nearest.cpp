@@ -6,8 +6,8 @@ namespace plumb {
 namespace {
 
 /// Indices of i's points that lie in j's box, made wider by `margin`; evenly thinned to `most`.
-std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, const Box& box, float margin,
-                                    const std::optional<std::uint32_t>& most) {
+std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, const Box& box,
+                                    float margin, const std::optional<std::uint32_t>& most) {
   const Eigen::Vector3f low = box.low.array() - margin, high = box.high.array() + margin;
   std::vector<std::uint32_t> inside(cloud.size());
   std::size_t count = 0;
@@ -32,14 +32,16 @@ std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, 
 
 }  // namespace
 
-Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j, const NearestOptions& options) {
+Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
+                      const NearestOptions& options) {
   Matches matches;
   matches.to_plane = options.to_plane;
   const auto max = static_cast<float>(options.max);
   if (!j.box.meets(moved(i.box, T_i_j.inverse()), max)) return matches;
   const Motion j_from_i(T_i_j.inverse());
   const auto asked = near_box(i.cloud, j_from_i, j.box, max, options.most_points);
-  const float least_cosine = options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
+  const float least_cosine =
+      options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
   for (const auto k : asked) {
     const Eigen::Vector3f p = i.cloud.point(k);
     SearchTree::Neighbour nearest;

@@ -10,17 +10,19 @@
 namespace plumb {
 
 struct NearestOptions {
-  double max = 1;                             ///< [m] farthest that a pair may be apart
-  bool to_plane = false;                      ///< residuals along q's normal; segment j must have normals
-  std::optional<std::uint32_t> most_points;   ///< of i's points near j, so many at most are asked
-  std::optional<double> reject_normals;       ///< [rad] greatest angle between the normals; both must have some
+  double max = 1;         ///< [m] farthest that a pair may be apart
+  bool to_plane = false;  ///< residuals along q's normal; segment j must have normals
+  std::optional<std::uint32_t> most_points;  ///< of i's points near j, so many at most are asked
+  /// [rad] Greatest angle between the normals; both segments must have some.
+  std::optional<double> reject_normals;
 };
 
-/// For each point p of segment i the nearest point q of segment j, if |p - T_i_j q| <= max; one way only, in the order of i's
-/// points. Points of i outside j's box are never asked. With `most_points`, evenly spaced ones of the rest are. Fills p, q,
-/// their indices, weights 1, and normal_q when to_plane; `found` counts the pairs before any is dropped for its normals: one
-/// that is 0, hence unknown, gives no plane and no angle.
-/// Source: [Tang2024] 2.3.2.
-Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j, const NearestOptions& options);
+/// For each point p of segment i the nearest point q of segment j, if |p - T_i_j q| <= max; one way
+/// only, in the order of i's points. Points of i outside j's box are never asked. With
+/// `most_points`, evenly spaced ones of the rest are. Fills p, q, their indices, weights 1, and
+/// normal_q when to_plane; `found` counts the pairs before any is dropped for its normals: one that
+/// is 0, hence unknown, gives no plane and no angle. Source: [Tang2024] 2.3.2.
+Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
+                      const NearestOptions& options);
 
 }  // namespace plumb

@@ -31,7 +31,8 @@ void give_normals(Cloud& cloud, const Eigen::Vector3f& n) {
 const Pose T_i_j(exp_rotation({0.02, -0.01, 0.4}), {6, -2, 0.5});
 
 TEST(Nearest, AgreesWithComparingEachWithEach) {
-  const Segment i = segment_of(random_cloud(1500, 10, 1)), j = segment_of(random_cloud(1500, 10, 2));
+  const Segment i = segment_of(random_cloud(1500, 10, 1)),
+                j = segment_of(random_cloud(1500, 10, 2));
   const Matches matches = nearest_pairs(i, j, T_i_j, {1.0, false, {}, {}});
   std::size_t next = 0;
   const Motion j_from_i(T_i_j.inverse());
@@ -61,7 +62,8 @@ TEST(Nearest, PairsAMovedCopyWithItself) {
   const Cloud cloud = random_cloud(500, 10, 3);
   Cloud copy;
   for (std::size_t k = 0; k < cloud.size(); ++k) copy.add(Motion(T_i_j.inverse()) * cloud.point(k));
-  const Matches matches = nearest_pairs(segment_of(cloud), segment_of(copy), T_i_j, {0.01, false, {}, {}});
+  const Matches matches =
+      nearest_pairs(segment_of(cloud), segment_of(copy), T_i_j, {0.01, false, {}, {}});
   ASSERT_EQ(matches.size(), 500u);
   EXPECT_EQ(matches.index_p, matches.index_q);
 }
@@ -85,7 +87,8 @@ TEST(Nearest, AsksNoMoreThanMostPointsAndSpreadsThem) {
 TEST(Nearest, GivesTheNormalOfTheOtherPointForPlanes) {
   Cloud cloud = random_cloud(50, 10, 1);
   give_normals(cloud, {0, 0, 1});
-  const Matches matches = nearest_pairs(segment_of(cloud), segment_of(cloud), Pose(), {1.0, true, {}, {}});
+  const Matches matches =
+      nearest_pairs(segment_of(cloud), segment_of(cloud), Pose(), {1.0, true, {}, {}});
   EXPECT_TRUE(matches.to_plane);
   ASSERT_EQ(matches.normal_q.size(), 50u);
   EXPECT_EQ(matches.normal_q[7], Eigen::Vector3f(0, 0, 1));
@@ -95,7 +98,8 @@ TEST(Nearest, LeavesOutPlanesOfUnknownNormal) {
   Cloud cloud = random_cloud(50, 10, 1);
   give_normals(cloud, {0, 0, 1});
   cloud.nz[7] = 0;
-  const Matches matches = nearest_pairs(segment_of(cloud), segment_of(cloud), Pose(), {0.1, true, {}, {}});
+  const Matches matches =
+      nearest_pairs(segment_of(cloud), segment_of(cloud), Pose(), {0.1, true, {}, {}});
   EXPECT_EQ(matches.found, 50u);
   EXPECT_EQ(matches.size(), 49u);
 }
@@ -107,9 +111,12 @@ TEST(Nearest, DropsPairsWhoseNormalsDifferInTheSameFrame) {
   give_normals(a, {1, 0, 0});
   give_normals(b, Motion(T_i_j.inverse()).r * Eigen::Vector3f(1, 0, 0));
   const double five_degrees = 5 * std::numbers::pi / 180;
-  EXPECT_EQ(nearest_pairs(segment_of(a), segment_of(b), T_i_j, {0.1, false, {}, five_degrees}).size(), 50u);
+  EXPECT_EQ(
+      nearest_pairs(segment_of(a), segment_of(b), T_i_j, {0.1, false, {}, five_degrees}).size(),
+      50u);
   give_normals(b, {1, 0, 0});
-  const auto none = nearest_pairs(segment_of(a), segment_of(b), T_i_j, {0.1, false, {}, five_degrees});
+  const auto none =
+      nearest_pairs(segment_of(a), segment_of(b), T_i_j, {0.1, false, {}, five_degrees});
   EXPECT_EQ(none.size(), 0u);
   EXPECT_EQ(none.found, 50u);
 }
@@ -118,7 +125,10 @@ TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
   const Segment bare = segment_of(random_cloud(20, 5, 1));
   const auto refusal = [&](const char* parameter, ParameterValue value) -> std::string {
     StepRun step(*plumb_module());
-    step.over("edges").ends("segments", bare, bare).at("poses", Pose()).set(parameter, std::move(value));
+    step.over("edges")
+        .ends("segments", bare, bare)
+        .at("poses", Pose())
+        .set(parameter, std::move(value));
     TestContext context;
     try {
       step.run<Matches>("matches", context);

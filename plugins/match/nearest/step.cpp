@@ -29,10 +29,14 @@ struct Nearest : EdgeStep {
     is.summary("Pairs each point of one segment with the nearest point of the other.");
     is.source("[Tang2024] 2.3.2");
     is.input("edges", &In::edges, "which segments to pair");
-    is.input("segments", &In::segments, "the clouds; with normals for 'metric: plane' and 'reject_normals'");
+    is.input("segments", &In::segments,
+             "the clouds; with normals for 'metric: plane' and 'reject_normals'");
     is.input("poses", &In::poses, "where the segments are at present");
     is.output("matches", &Out::matches, "pairs no farther apart than 'max'");
-    is.param("max", &Params::max).unit("m").range(0.001, 100).doc("farthest that a pair may be apart");
+    is.param("max", &Params::max)
+        .unit("m")
+        .range(0.001, 100)
+        .doc("farthest that a pair may be apart");
     is.choice("metric", &Params::metric,
               {{"point", Metric::point, "the solver shortens the whole distance of a pair"},
                {"plane", Metric::plane, "the solver shortens the part along q's normal"}})
@@ -51,11 +55,14 @@ struct Nearest : EdgeStep {
     if (i.cloud.empty() || j.cloud.empty()) return {};
     const auto demand_normals = [](const Segment& segment, const char* what) {
       if (!segment.cloud.has_normals())
-        throw Error(std::string("'") + what + "' needs normals and the segments have none: put "
-                    "estimate.normals before, or leave '" + what + "' out");
+        throw Error(std::string("'") + what +
+                    "' needs normals and the segments have none: put "
+                    "estimate.normals before, or leave '" +
+                    what + "' out");
     };
     if (params.metric == Metric::plane) demand_normals(j, "metric: plane");
-    if (params.reject_normals) demand_normals(i, "reject_normals"), demand_normals(j, "reject_normals");
+    if (params.reject_normals)
+      demand_normals(i, "reject_normals"), demand_normals(j, "reject_normals");
     Matches matches = nearest_pairs(
         i, j, in.poses.T_i_j,
         {params.max, params.metric == Metric::plane, params.most_points, params.reject_normals});

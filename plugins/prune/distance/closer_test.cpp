@@ -50,14 +50,18 @@ TEST(DistanceGate, RefusesALoopMarginWithoutEdges) {
 
 TEST(DistanceGate, LetsNoPairsThrough) {
   TestContext context;
-  const auto kept =
-      StepRun(*plumb_module()).with("matches", Matches()).at("poses", Pose()).run<Matches>("matches", context);
+  const auto kept = StepRun(*plumb_module())
+                        .with("matches", Matches())
+                        .at("poses", Pose())
+                        .run<Matches>("matches", context);
   EXPECT_EQ(kept.size(), 0u);
 }
 
 TEST(DistanceGate, RemembersHowManyWereFound) {
   TestContext context;
-  const auto kept = StepRun(*plumb_module()).with("matches", pairs_apart(9)).at("poses", Pose())
+  const auto kept = StepRun(*plumb_module())
+                        .with("matches", pairs_apart(9))
+                        .at("poses", Pose())
                         .run<Matches>("matches", context);
   EXPECT_EQ(kept.size(), 4u);
   EXPECT_EQ(kept.found, 9u);

@@ -26,17 +26,23 @@ struct DistanceGate : EdgeStep {
     is.input("poses", &In::poses, "where the segments are at present");
     is.optional_input("edges", &In::edges, "kinds and centroid distances; for 'loop_margin'");
     is.output("matches", &Out::matches, "the pairs within the gate");
-    is.param("max", &Params::max).unit("m").range(0.01, 1000).doc("farthest that a pair may be apart");
+    is.param("max", &Params::max)
+        .unit("m")
+        .range(0.01, 1000)
+        .doc("farthest that a pair may be apart");
     is.param("loop_margin", &Params::loop_margin)
         .unit("m")
         .range(0, 1000)
-        .doc("on loop edges the gate is the distance of the centroids plus this; none: 'max' there too");
+        .doc(
+            "on loop edges the gate is the distance of the centroids plus this; none: 'max' there "
+            "too");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     if (params.loop_margin && !in.edges)
-      throw Error("'loop_margin' is set but the input 'edges' is not wired: wire the edges that the "
-                  "pairs belong to, or leave 'loop_margin' out");
+      throw Error(
+          "'loop_margin' is set but the input 'edges' is not wired: wire the edges that the "
+          "pairs belong to, or leave 'loop_margin' out");
     double gate = params.max;
     if (params.loop_margin && in.edges.edge.kind == EdgeKind::loop)
       gate = in.edges.edge.centroid_distance + *params.loop_margin;

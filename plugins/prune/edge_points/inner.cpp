@@ -6,8 +6,9 @@ namespace plumb {
 
 std::vector<std::uint32_t> inner(const Matches& matches) {
   if (matches.at_border.size() != matches.size())
-    throw Error("the pairs do not say which points lie at a border: take them from a step that "
-                "does, such as match.fpfh_mutual");
+    throw Error(
+        "the pairs do not say which points lie at a border: take them from a step that "
+        "does, such as match.fpfh_mutual");
   std::vector<std::uint32_t> kept;
   for (std::uint32_t k = 0; k < matches.size(); ++k)
     if (!matches.at_border[k]) kept.push_back(k);

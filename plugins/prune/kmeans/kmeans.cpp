@@ -9,7 +9,8 @@
 namespace plumb {
 namespace {
 
-/// k-means++: each next seed is drawn with a chance that goes with its squared distance to the seeds so far.
+/// k-means++: each next seed is drawn with a chance that goes with its squared distance to the
+/// seeds so far.
 std::vector<Vector6d> seeds(const std::vector<Vector6d>& vectors, std::uint32_t k, Random& random) {
   std::vector<Vector6d> chosen{vectors[random.below(static_cast<std::uint32_t>(vectors.size()))]};
   std::vector<double> squared(vectors.size(), std::numeric_limits<double>::infinity());
@@ -71,8 +72,9 @@ Clusters kmeans(const std::vector<Vector6d>& vectors, std::uint32_t k, Random ra
   return clusters;
 }
 
-std::vector<std::uint32_t> best_cluster(const Clusters& clusters, const std::vector<Vector6d>& vectors,
-                                        Keep keep, double grain, std::uint32_t fewest) {
+std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
+                                        const std::vector<Vector6d>& vectors, Keep keep,
+                                        double grain, std::uint32_t fewest) {
   std::vector<double> counts(clusters.centres.size(), 0), spreads(clusters.centres.size(), 0);
   for (std::size_t n = 0; n < vectors.size(); ++n) {
     counts[clusters.of[n]] += 1;

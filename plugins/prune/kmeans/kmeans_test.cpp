@@ -23,8 +23,8 @@ Eigen::Vector3f in_ball(Random& random, float radius) {
   return v;
 }
 
-/// Pairs of points 40 m round, `right` of them moved by `T_i_j` and 0.1 m of noise, the others anywhere within 5 m of that.
-/// The right ones come first.
+/// Pairs of points 40 m round, `right` of them moved by `T_i_j` and 0.1 m of noise, the others
+/// anywhere within 5 m of that. The right ones come first.
 Matches planted(int right, int wrong, const Pose& T_i_j, std::uint64_t seed) {
   Random random(seed);
   Matches m;
@@ -50,7 +50,10 @@ double share_right(const Matches& kept, unsigned right) {
 const Pose drift(exp_rotation({0, 0, 0.017}), {1.0, -0.6, 0.2});
 
 Matches run(const Matches& matches, TestContext& context, const std::string& keep = "largest") {
-  return StepRun(*plumb_module()).with("matches", matches).at("poses", Pose()).set("keep", keep)
+  return StepRun(*plumb_module())
+      .with("matches", matches)
+      .at("poses", Pose())
+      .set("keep", keep)
       .run<Matches>("matches", context);
 }
 
@@ -59,7 +62,8 @@ TEST(KMeans, KeepsASetAtLeast85PercentRightOf60PercentOutliers) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
       for (const int pairs : {100, 300, 1000}) {
         TestContext context(seed);
-        const Matches kept = run(planted(pairs * 4 / 10, pairs * 6 / 10, drift, seed), context, keep);
+        const Matches kept =
+            run(planted(pairs * 4 / 10, pairs * 6 / 10, drift, seed), context, keep);
         EXPECT_GE(share_right(kept, static_cast<unsigned>(pairs * 4 / 10)), 0.85) << pairs << keep;
         EXPECT_GE(kept.size(), static_cast<std::size_t>(pairs) / 20) << pairs << keep;
         EXPECT_EQ(kept.found, static_cast<unsigned>(pairs));
@@ -148,8 +152,11 @@ TEST(KMeans, WithMotionsTellsWallsApartThatDisplacementsDoNot) {
   m.normal_q.assign(40, Eigen::Vector3f::UnitX());
   for (int k = 30; k < 40; ++k) m.normal_q[k] = Eigen::Vector3f::UnitY();
   TestContext context;
-  const auto kept = StepRun(*plumb_module()).with("matches", m).at("poses", Pose())
-                        .set("vector", std::string("motion")).set("pairs_per_cluster", std::int64_t(20))
+  const auto kept = StepRun(*plumb_module())
+                        .with("matches", m)
+                        .at("poses", Pose())
+                        .set("vector", std::string("motion"))
+                        .set("pairs_per_cluster", std::int64_t(20))
                         .run<Matches>("matches", context);
   EXPECT_EQ(kept.size(), 30u);
   EXPECT_EQ(share_right(kept, 30), 1.0);

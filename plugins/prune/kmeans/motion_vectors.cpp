@@ -15,8 +15,9 @@ std::vector<Vector6d> displacements(const Matches& matches, const Pose& T_i_j) {
 
 std::vector<Vector6d> motions(const Matches& matches, const Pose& T_i_j, double lever) {
   if (matches.normal_p.size() != matches.size() || matches.normal_q.size() != matches.size())
-    throw Error("the pairs have no normals, which 'vector: motion' needs: put estimate.normals "
-                "before the step that describes the points, or take 'vector: displacement'");
+    throw Error(
+        "the pairs have no normals, which 'vector: motion' needs: put estimate.normals "
+        "before the step that describes the points, or take 'vector: displacement'");
   auto vectors = displacements(matches, T_i_j);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     const Eigen::Vector3d to = matches.normal_p[k].cast<double>();

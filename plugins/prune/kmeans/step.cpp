@@ -45,7 +45,9 @@ struct KMeans : EdgeStep {
     is.param("pairs_per_cluster", &Params::pairs_per_cluster)
         .range(1, 1e6)
         .doc("there is one cluster, and at least two, for so many pairs");
-    is.param("most_clusters", &Params::most_clusters).range(2, 1000).doc("but never more than these");
+    is.param("most_clusters", &Params::most_clusters)
+        .range(2, 1000)
+        .doc("but never more than these");
     is.choice("keep", &Params::keep,
               {{"largest", Keep::largest, "the cluster with the most pairs, as in the paper"},
                {"densest", Keep::densest, "the cluster with the most pairs for its spread"}})

@@ -39,7 +39,8 @@ Triple three_of(std::uint32_t n, Random& random) {
   return t;
 }
 
-/// Whether the two triangles can be one moved by up to `max_residual` at each corner, and can tell a rotation.
+/// Whether the two triangles can be one moved by up to `max_residual` at each corner, and can tell
+/// a rotation.
 bool alike(const Matches& m, const Triple& t, float max_residual) {
   for (int k = 0; k < 3; ++k) {
     const auto a = t[k], b = t[(k + 1) % 3];

@@ -17,7 +17,8 @@ Eigen::Vector3f in_cube(Random& random, float half) {
 
 const Pose motion(exp_rotation({0.1, -0.2, 0.9}), {5, -3, 1});
 
-/// `right` pairs that follow `motion` to within 0.05 m on each axis, then `wrong` ones of unrelated points.
+/// `right` pairs that follow `motion` to within 0.05 m on each axis, then `wrong` ones of unrelated
+/// points.
 Matches planted(int right, int wrong, std::uint64_t seed) {
   Random random(seed);
   Matches m;
@@ -83,7 +84,9 @@ TEST(Ransac, FitsARotationToPointsInAPlaneAndNoReflection) {
 }
 
 Matches run(const Matches& matches, TestContext& context) {
-  return StepRun(*plumb_module()).with("matches", matches).set("max_residual", 0.2)
+  return StepRun(*plumb_module())
+      .with("matches", matches)
+      .set("max_residual", 0.2)
       .run<Matches>("matches", context);
 }
 

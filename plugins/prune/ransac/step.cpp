@@ -32,7 +32,9 @@ struct Ransac : EdgeStep {
         .unit("%")
         .range(0.5, 0.999999)
         .doc("chance to have seen the best motion, after which no more samples are drawn");
-    is.param("most_samples", &Params::most_samples).range(1, 1e8).doc("samples of three pairs at most");
+    is.param("most_samples", &Params::most_samples)
+        .range(1, 1e8)
+        .doc("samples of three pairs at most");
     is.param("fewest", &Params::fewest)
         .range(3, 1e6)
         .doc("fewer pairs than this are kept as they are: any three fit some motion");
