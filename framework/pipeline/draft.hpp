@@ -114,6 +114,14 @@ std::string kind_of(const Type& type, Grain grain);
 /// Whether a repeat is `inside` of another or the same; -1 is the pipeline.
 bool inside(const Draft& draft, int repeat, int of);
 
+/// Letters, digits and '_', a letter first.
+bool valid_name(std::string_view name);
+/// Adds a name to a scope. A name that an outer scope has too is refused: nobody could say which is
+/// meant.
+bool declare(Draft& draft, int scope, const std::string& name, const Symbol& symbol);
+/// Rows, carried values and counts of one repeat.
+void read_passes(Draft& draft, int repeat);
+
 void read_settings(Draft& draft);    ///< header and parameters
 void read_steps(Draft& draft);       ///< steps, groups and repeats get names
 void read_parameters(Draft& draft);  ///< `with` of every step, rows

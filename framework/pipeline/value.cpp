@@ -157,6 +157,8 @@ std::variant<ParameterValue, Fault> read_value(const ParameterDescription& param
 std::variant<ParameterValue, Fault> converted(const ParameterDescription& from,
                                               const ParameterValue& value,
                                               const ParameterDescription& to) {
+  ParameterDescription strict = from;  // for the sentence: any parameter of a pipeline may be none
+  strict.may_be_none = false;
   ParameterValue result = value;
   if (!std::holds_alternative<std::monostate>(value)) {
     const bool integer_as_number = from.kind == ParameterKind::integer &&
@@ -167,7 +169,7 @@ std::variant<ParameterValue, Fault> converted(const ParameterDescription& from,
     if (integer_as_number)
       result = static_cast<double>(std::get<std::int64_t>(value));
     else if (!words && (from.kind != to.kind || from.quantity != to.quantity))
-      return Fault{"it is " + expected(from) + ", expected " + expected(to), ""};
+      return Fault{"it is " + expected(strict) + ", expected " + expected(to), ""};
   }
   const std::string fault = fault_of(to, result);
   if (!fault.empty())
