@@ -1,0 +1,28 @@
+#pragma once
+/// Finds points that are lonelier than the others.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "plumb/data/cloud.hpp"
+#include "plumb/geometry/search_tree.hpp"
+
+namespace plumb {
+
+/// Calls body(k) for k = 0 .. n-1 in any order, and waits.
+using ParallelFor =
+    std::function<void(std::size_t n, const std::function<void(std::size_t k)>& body)>;
+
+/// The mean distance [m] of each point to its `neighbours` nearest other points (all there are, if
+/// fewer; 0 for a single point). `tree` holds the points of `cloud`, all of them finite. The result
+/// does not depend on the number of threads.
+std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree,
+                                  std::size_t neighbours, const ParallelFor& parallel);
+
+/// The indices k, rising, with values[k] <= mean + deviations * sigma, where sigma is the values'
+/// standard deviation (over n - 1). Sums are double, in a fixed order. Source: [Rusu2008] 3.1, as
+/// in PCL.
+std::vector<std::uint32_t> not_beyond(const std::vector<float>& values, double deviations);
+
+}  // namespace plumb
