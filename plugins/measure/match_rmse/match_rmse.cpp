@@ -1,0 +1,37 @@
+#include "match_rmse.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+
+IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i, double cap,
+                         std::optional<std::uint32_t> most_points) {
+  IndexPairs pairs;
+  if (i.cloud.empty() || j.cloud.empty() ||
+      !moved(i.box, T_j_i).meets(j.box, static_cast<float>(cap)))
+    return pairs;
+  const std::size_t n = i.cloud.size();
+  const std::size_t stride = most_points && n > *most_points ? (n + *most_points - 1) / *most_points : 1;
+  const Motion motion(T_j_i);
+  const SearchTree& tree = j.tree();
+  for (std::size_t k = 0; k < n; k += stride) {
+    SearchTree::Neighbour nearest;
+    if (tree.nearest_within(motion * i.cloud.point(k), static_cast<float>(cap), nearest))
+      pairs.emplace_back(static_cast<std::uint32_t>(k), nearest.index);
+  }
+  return pairs;
+}
+
+double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, const Pose& T_j_i) {
+  if (pairs.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Matrix3d r = T_j_i.matrix();
+  double squares = 0;
+  for (const auto& [p, q] : pairs)
+    squares += (r * i.cloud.point(p).cast<double>() + T_j_i.translation -
+                j.cloud.point(q).cast<double>())
+                   .squaredNorm();
+  return std::sqrt(squares / static_cast<double>(pairs.size()));
+}
+
+}  // namespace plumb

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "match_rmse.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct MatchRmse : WholeStep {
+  struct In {
+    One<Edges> edges;
+    Each<Segment> segments;
+    Several<Poses> poses;
+    One<Poses> pairs;
+  };
+  struct Out {
+    Metrics metrics;
+  };
+  struct Params {
+    double cap = 0.5;
+    std::optional<std::uint32_t> most_points;
+  };
+
+  static void describe(Declaration<MatchRmse>& is) {
+    is.name("measure.match_rmse")
+        .version(1)
+        .summary("Measures how far the clouds of neighbouring segments lie apart, averaged over all edges.")
+        .source("[Tang2024] eq. 3, 3.3");
+    is.input("edges", &In::edges, "which segments are compared");
+    is.input("segments", &In::segments, "their clouds, thinned as you want them compared");
+    is.input("poses", &In::poses, "where the segments are; a number for each, by its label");
+    is.optional_input("pairs", &In::pairs, "poses under which the pairs are found, once for all; without, each has its own pairs");
+    is.output("metrics", &Out::metrics, "a number for each of 'poses', and under the last of them a record for each edge");
+    is.param("cap", &Params::cap).unit("m").range(1e-3, 100).doc("farther points are no pair");
+    is.param("most_points", &Params::most_points).range(1, 1e9)
+        .doc("ask for at most so many points of an edge's first segment, evenly chosen; none: all");
+  }
+
+  /// What one edge gives: for each labelled poses the rmse (NaN: no pairs), and for the last the pairs asked for and found.
+  struct Result {
+    std::vector<double> rmse;
+    std::uint32_t asked = 0, found = 0;
+  };
+
+  Result measure(const In& in, const Edge& edge, const Params& params) const {
+    const auto i = in.segments.open(edge.i), j = in.segments.open(edge.j);
+    Result result;
+    IndexPairs pairs;
+    if (in.pairs)
+      pairs = nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i), params.cap, params.most_points);
+    for (const auto& [label, poses] : in.poses) {
+      const Pose T_j_i = poses->relative(edge.j, edge.i);
+      if (!in.pairs) pairs = nearest_pairs(*i, *j, T_j_i, params.cap, params.most_points);
+      result.rmse.push_back(rmse_of(pairs, *i, *j, T_j_i));
+    }
+    const std::size_t n = i->cloud.size();
+    result.asked = static_cast<std::uint32_t>(
+        params.most_points ? std::min<std::size_t>(n, *params.most_points) : n);
+    result.found = static_cast<std::uint32_t>(pairs.size());
+    return result;
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    const std::size_t segments = in.segments.size();
+    const auto check = [&](const Poses& poses) {
+      if (poses.size() != segments)
+        throw Error("there are " + std::to_string(poses.size()) + " poses but " +
+                    std::to_string(segments) + " segments; wire poses of the same segments");
+    };
+    for (const auto& [label, poses] : in.poses) check(*poses);
+    if (in.pairs) check(*in.pairs);
+    const auto& edges = in.edges->list;
+    for (const auto& edge : edges)
+      if (edge.i >= segments || edge.j >= segments)
+        throw Error("an edge names a segment beyond the " + std::to_string(segments) +
+                    " that there are; wire edges of the same segments");
+
+    std::vector<Result> results(edges.size());
+    context.parallel(edges.size(), [&](std::size_t k) { results[k] = measure(in, edges[k], params); });
+
+    Out out;
+    for (std::size_t label = 0; label < in.poses.size(); ++label) {
+      double sum = 0;
+      std::size_t with_pairs = 0;
+      for (const auto& result : results)
+        if (!std::isnan(result.rmse[label])) sum += result.rmse[label], ++with_pairs;
+      const double mean = with_pairs ? sum / static_cast<double>(with_pairs)
+                                     : std::numeric_limits<double>::quiet_NaN();
+      const auto& name = in.poses[label].label;
+      out.metrics.add(name.empty() ? "rmse" : name, mean, "m");
+    }
+    std::size_t without = 0;
+    for (std::size_t k = 0; k < edges.size() && !in.poses.empty(); ++k) {
+      const auto& e = edges[k];
+      const double rmse = results[k].rmse.back();
+      const bool none = std::isnan(rmse);
+      without += none;
+      out.metrics.edges.push_back({e.i, e.j, e.kind, results[k].asked, results[k].found,
+                                   none ? 0 : rmse, none ? 0.0 : 1.0, none ? "no matches" : "kept"});
+    }
+    if (without)
+      out.metrics.notes.push_back(std::to_string(without) + " of " + std::to_string(edges.size()) +
+                                  " edges have no points nearer than the cap and are not in the mean");
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::MatchRmse)

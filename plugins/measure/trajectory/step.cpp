@@ -1,0 +1,69 @@
+#include <filesystem>
+
+#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/data/trajectory_error.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct MeasureTrajectory : WholeStep {
+  struct In {
+    Several<Trajectory> trajectories;
+  };
+  struct Out {
+    Metrics metrics;
+  };
+  struct Params {
+    std::optional<std::filesystem::path> truth;
+    double tolerance = 2e-3;
+    double over = 10;
+  };
+
+  static void describe(Declaration<MeasureTrajectory>& is) {
+    is.name("measure.trajectory")
+        .version(1)
+        .summary("Measures the absolute and relative error of trajectories against a true one.")
+        .source("Sturm et al. 2012");
+    is.input("trajectories", &In::trajectories, "any number of trajectories; numbers are named after the label");
+    is.output("metrics", &Out::metrics, "for each trajectory ate, ate_max, rpe_translation, rpe_rotation");
+    is.param("truth", &Params::truth).doc("TUM file with the true poses; none: a note, and no numbers");
+    is.param("tolerance", &Params::tolerance).unit("s").range(1e-9, 10)
+        .doc("poses whose stamps differ by less belong together");
+    is.param("over", &Params::over).unit("m").range(1e-3, 1e6)
+        .doc("length of true path over which the relative error is taken");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    Out out;
+    if (!params.truth) {
+      out.metrics.notes.push_back("no truth was given, so the trajectories' errors are not known");
+      return out;
+    }
+    const Trajectory truth = read_tum(*params.truth);
+    for (const auto& [label, trajectory] : in.trajectories) {
+      const PosePairs pairs = pair_by_stamp(*trajectory, truth, params.tolerance);
+      const std::string of = label.empty() ? "" : label + "_";
+      if (pairs.size() < 3) {
+        const std::string sentence = "only " + std::to_string(pairs.size()) + " poses of " +
+                                     (label.empty() ? "the trajectory" : "'" + label + "'") +
+                                     " have a stamp of the truth; the error needs 3";
+        out.metrics.notes.push_back(sentence);
+        context.warn(sentence + "; look whether both files count the same seconds");
+        continue;
+      }
+      const auto absolute = absolute_error(pairs);
+      const auto relative = relative_error(pairs, params.over);
+      out.metrics.add(of + "ate", absolute.rmse, "m")
+          .add(of + "ate_max", absolute.max, "m")
+          .add(of + "rpe_translation", relative.translation, "m")
+          .add(of + "rpe_rotation", relative.rotation, "rad");
+    }
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::MeasureTrajectory)

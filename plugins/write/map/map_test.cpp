@@ -1,0 +1,174 @@
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "map_file.hpp"
+#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/plugin/testing.hpp"
+#include "voxel_map.hpp"
+
+extern "C" const PlumbModule* plumb_module();
+
+namespace plumb {
+namespace {
+
+Cloud random_cloud(std::uint64_t seed, int points, double size) {
+  Random random(seed);
+  Cloud cloud;
+  for (int k = 0; k < points; ++k) {
+    const auto u = [&] { return static_cast<float>(size * (random.uniform() - 0.5)); };
+    const float x = u(), y = u(), z = u();
+    cloud.add({x, y, z});
+  }
+  return cloud;
+}
+
+void add_all(VoxelMap& map, const Cloud& cloud, const Pose& pose) {
+  const auto cells = map.cells_of(cloud, pose);
+  for (std::size_t s = 0; s < VoxelMap::shards; ++s) map.add(cells, s);
+}
+
+using Cell = std::array<long, 3>;
+Cell cell_of(const Eigen::Vector3d& p, double leaf) {
+  return {std::lround(std::floor(p.x() / leaf)), std::lround(std::floor(p.y() / leaf)), std::lround(std::floor(p.z() / leaf))};
+}
+
+TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
+  VoxelMap map(0.5, Eigen::Vector3d::Zero());
+  std::map<Cell, std::pair<Eigen::Vector3d, int>> expected;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto cloud = random_cloud(seed, 4000, 12);
+    const Pose pose(exp_rotation({0.1, 0.2, 0.3 * static_cast<double>(seed)}), {static_cast<double>(seed), -3, 1});
+    add_all(map, cloud, pose);
+    for (std::size_t k = 0; k < cloud.size(); ++k) {
+      const Eigen::Vector3d p = pose * cloud.point(k).cast<double>().eval();
+      auto& [sum, n] = expected.try_emplace(cell_of(p, 0.5), Eigen::Vector3d::Zero(), 0).first->second;
+      sum += p, ++n;
+    }
+  }
+  ASSERT_NEAR(static_cast<double>(map.size()), static_cast<double>(expected.size()), 2);
+  const auto cloud = map.take();
+  for (std::size_t k = 0; k < cloud.size(); ++k) {
+    const Eigen::Vector3d p = cloud.point(k).cast<double>();
+    const auto at = expected.find(cell_of(p, 0.5));
+    ASSERT_NE(at, expected.end());
+    EXPECT_LT((at->second.first / at->second.second - p).norm(), 2e-5);
+  }
+}
+
+TEST(VoxelMap, KeepsMillimetresAtUtmCoordinates) {
+  const Eigen::Vector3d utm(412345.678, 5654321.123, 87.6);
+  VoxelMap map(0.2, {412000, 5654000, 0});
+  Cloud one;
+  one.add({1, 2, 3});
+  add_all(map, one, Pose(Eigen::Quaterniond::Identity(), utm));
+  const auto cloud = map.take();
+  ASSERT_EQ(cloud.size(), 1u);
+  EXPECT_LT((cloud.point(0).cast<double>() - (utm + Eigen::Vector3d(1, 2, 3) - Eigen::Vector3d(412000, 5654000, 0))).norm(), 1e-4);
+}
+
+TEST(VoxelMap, TakesMorePointsInACellThanItCanCount) {
+  VoxelMap map(1, Eigen::Vector3d::Zero());
+  Cloud cloud;
+  for (int k = 0; k < 70000; ++k) cloud.add({0.25f, 0.5f, 0.75f});
+  add_all(map, cloud, Pose());
+  add_all(map, cloud, Pose());
+  EXPECT_LT((map.take().point(0) - Eigen::Vector3f(0.25f, 0.5f, 0.75f)).norm(), 1e-4f);
+}
+
+TEST(VoxelMap, LeavesOutAndCountsWhatIsTooFar) {
+  VoxelMap map(0.01, Eigen::Vector3d::Zero());
+  Cloud cloud;
+  cloud.add({1, 1, 1});
+  cloud.add({20000, 0, 0});
+  EXPECT_EQ(map.cells_of(cloud, Pose()).too_far, 1u);
+}
+
+TEST(MapOrigin, IsZeroNearAndWholeKilometresFarAway) {
+  Trajectory t;
+  t.stamps = {0};
+  t.T_world_frame = {Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(9000, -50, 3))};
+  EXPECT_TRUE(map_origin(t).isZero());
+  t.T_world_frame[0].translation = {412345, 5654321, 80};
+  EXPECT_EQ(map_origin(t), Eigen::Vector3d(412000, 5654000, 0));
+}
+
+struct Frames : Collection {
+  std::vector<AnyValue> items;
+  std::size_t size() const override { return items.size(); }
+  AnyValue open(std::size_t k) const override { return items[k]; }
+};
+
+/// The step's document for `frames` random frames that stand 5 m apart from each other, from `start` on.
+std::string document(std::size_t frames, const Eigen::Vector3d& start, const std::string& format, Context& context, std::size_t poses) {
+  auto each = std::make_shared<Frames>();
+  Trajectory trajectory;
+  for (std::size_t k = 0; k < frames; ++k)
+    each->items.push_back(any_value(Frame{static_cast<std::uint32_t>(k), random_cloud(k, 1000, 10)}));
+  for (std::size_t k = 0; k < poses; ++k) {
+    trajectory.stamps.push_back(static_cast<double>(k));
+    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), Eigen::Vector3d(start + Eigen::Vector3d(5.0 * static_cast<double>(k), 0, 0))});
+  }
+  PortInput inputs[2];
+  inputs[0].wired = inputs[1].wired = true;
+  inputs[0].each = each;
+  inputs[1].one = any_value(trajectory);
+  PortOutput output;
+  const Step& step = *plumb_module()->steps[0];
+  step.run(step.parameters({{"leaf", 0.5}, {"format", format}}).get(), inputs, {&output, 1}, context);
+  return output.one.as<Document>()->bytes;
+}
+
+Cloud read_back(const std::string& bytes, const std::string& extension) {
+  const auto file = std::filesystem::temp_directory_path() / ("plumb_map_" + std::to_string(::getpid()) + extension);
+  std::ofstream(file, std::ios::binary) << bytes;
+  const auto cloud = read_cloud(file).cloud;
+  std::filesystem::remove(file);
+  return cloud;
+}
+
+TEST(WriteMap, WritesTheSameMapAsPlyAndAsPcd) {
+  TestContext context;
+  const auto ply = read_back(document(40, {0, 0, 0}, "ply", context, 40), ".ply");
+  const auto pcd = read_back(document(40, {0, 0, 0}, "pcd", context, 40), ".pcd");
+  EXPECT_EQ(context.counts["points read for the map"], 80000u);
+  EXPECT_GT(ply.size(), 1000u);
+  EXPECT_EQ(ply.x, pcd.x);
+  EXPECT_EQ(ply.z, pcd.z);
+}
+
+TEST(WriteMap, TellsItsOriginFarFromTheWorlds) {
+  TestContext context;
+  const auto ply = document(3, {412345, 5654321, 80}, "ply", context, 3);
+  EXPECT_THAT(ply.substr(0, 400), testing::HasSubstr("origin 412000 5654000 0: add to"));
+  const auto pcd = document(3, {412345, 5654321, 80}, "pcd", context, 3);
+  EXPECT_THAT(pcd.substr(0, 400), testing::HasSubstr("# origin 412000 5654000 0: add to"));
+  EXPECT_LT(box_of(read_back(ply, ".ply")).high.norm(), 1000);
+  EXPECT_EQ(read_back(pcd, ".pcd").size(), read_back(ply, ".ply").size());
+}
+
+/// Runs parallel bodies backwards.
+struct Backwards : TestContext {
+  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
+    for (std::size_t k = n; k > 0; --k) body(k - 1);
+  }
+};
+
+TEST(WriteMap, GivesTheSameBytesInAnyOrderOfWork) {
+  TestContext forwards;
+  Backwards backwards;
+  EXPECT_EQ(document(40, {0, 0, 0}, "ply", forwards, 40), document(40, {0, 0, 0}, "ply", backwards, 40));
+}
+
+TEST(WriteMap, RefusesATrajectoryOfOtherFrames) {
+  TestContext context;
+  EXPECT_THROW(document(3, {0, 0, 0}, "ply", context, 4), Error);
+}
+
+}  // namespace
+}  // namespace plumb

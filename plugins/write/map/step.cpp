@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include "map_file.hpp"
+#include "plumb/plugin/module.hpp"
+#include "voxel_map.hpp"
+
+namespace plumb {
+namespace {
+
+struct WriteMap : WholeStep {
+  struct In {
+    Each<Frame> frames;
+    One<Trajectory> trajectory;
+  };
+  struct Out {
+    Document document;
+  };
+  struct Params {
+    std::string name = "map.ply";
+    double leaf = 0.1;
+    MapFormat format = MapFormat::ply;
+    std::string check() const {
+      return name.empty() || name.find('/') != std::string::npos
+                 ? "name must be a file name without a folder, not '" + name + "'"
+                 : "";
+    }
+  };
+
+  static void describe(Declaration<WriteMap>& is) {
+    is.name("write.map").version(1).summary("Writes the map: all frames by their poses, one point a cell.");
+    is.input("frames", &In::frames, "the frames, opened one after another");
+    is.input("trajectory", &In::trajectory, "their poses");
+    is.output("document", &Out::document, "the file");
+    is.param("name", &Params::name).doc("name of the file in the output folder");
+    is.param("leaf", &Params::leaf).unit("m").range(0.005, 100)
+        .doc("edge length of a cell, of which the mean of its points is written");
+    is.choice("format", &Params::format,
+              {{"ply", MapFormat::ply, "binary PLY"}, {"pcd", MapFormat::pcd, "binary PCD"}})
+        .doc("file format");
+  }
+
+  /// Frames that are decoded in parallel before they are added: bounds the memory, and is enough for 16 threads.
+  static constexpr std::size_t block = 16;
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    const std::size_t frames = in.frames.size();
+    if (frames != in.trajectory->size())
+      throw Error("there are " + std::to_string(frames) + " frames but " +
+                  std::to_string(in.trajectory->size()) +
+                  " poses in the trajectory; wire the trajectory of these frames");
+    const Eigen::Vector3d origin = map_origin(*in.trajectory);
+    VoxelMap map(params.leaf, origin);
+    std::uint64_t points = 0, too_far = 0;
+    std::vector<VoxelMap::Cells> cells(block);
+    std::vector<std::uint64_t> counts(block);
+    for (std::size_t first = 0; first < frames; first += block) {
+      const std::size_t n = std::min(block, frames - first);
+      context.parallel(n, [&](std::size_t k) {
+        const auto frame = in.frames.open(first + k);
+        cells[k] = map.cells_of(frame->cloud, in.trajectory->T_world_frame[first + k]);
+        counts[k] = frame->cloud.size();
+      });
+      context.parallel(VoxelMap::shards, [&](std::size_t shard) {
+        for (std::size_t k = 0; k < n; ++k) map.add(cells[k], shard);
+      });
+      for (std::size_t k = 0; k < n; ++k) points += counts[k], too_far += cells[k].too_far;
+    }
+    context.count("points read for the map", points);
+    context.count("points in the map", map.size());
+    if (too_far) context.count("points too far from the map's origin dropped", too_far);
+    return {{params.name, map_bytes(map.take(), origin, params.format)}};
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::WriteMap)
