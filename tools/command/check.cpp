@@ -4,6 +4,7 @@
 
 #include "pipeline_options.hpp"
 #include "plumb/pipeline/graph.hpp"
+#include "plumb/pipeline/table.hpp"
 
 namespace plumb::command {
 

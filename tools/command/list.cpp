@@ -6,7 +6,7 @@
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/pipeline/nearest_name.hpp"
+#include "plumb/pipeline/diagnostics.hpp"
 #include "plumb/plugin/manifest.hpp"
 
 namespace plumb::command {
@@ -78,8 +78,8 @@ void add_inspect(CLI::App& app) {
     if (!step) {
       std::vector<std::string> names;
       for (const StepDescription* known : steps.all()) names.push_back(known->name);
-      const std::string nearest = nearest_name(*name, names);
-      throw Error("there is no step '" + *name + "'." + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?") +
+      const std::string close = pipeline::nearest(*name, names);
+      throw Error("there is no step '" + *name + "'." + (close.empty() ? "" : " Did you mean '" + close + "'?") +
                   " `plumb list` shows all.");
     }
     if (*as_json) std::cout << step_json(*step) << "\n";
