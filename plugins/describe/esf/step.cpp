@@ -1,0 +1,44 @@
+#include "esf.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct DescribeEsf : SegmentStep {
+  struct In {
+    One<Segment> segment;
+  };
+  struct Out {
+    Descriptor descriptor;
+  };
+  struct Params {
+    std::uint32_t samples = 20000;
+  };
+
+  static void describe(Declaration<DescribeEsf>& is) {
+    is.name("describe.esf").version(1);
+    is.summary(
+        "Describes the shape of a whole segment by an ensemble of shape functions, 640 numbers.");
+    is.source("[Wohlkinger2011]; [Tang2024] 2.3.1");
+    is.input("segment", &In::segment, "the cloud");
+    is.output("descriptor", &Out::descriptor, "ten histograms of 64 bins, in all summing to 1");
+    is.param("samples", &Params::samples)
+        .range(100, 10000000)
+        .doc("random triples of points; the scatter of the numbers falls with their root");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    if (auto values = esf(in.segment->cloud, params.samples, context.seed()))
+      return {Descriptor{std::move(*values)}};
+    context.warn(
+        "describe.esf: segment of frames " + std::to_string(in.segment->range.first) + " to " +
+        std::to_string(in.segment->range.end) +
+        " (end left out) has no three points that span a triangle: its descriptor is all zero.");
+    return {Descriptor{std::vector<float>(esf_size, 0.0f)}};
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::DescribeEsf)
