@@ -13,24 +13,34 @@ std::string rounded(double value) {
   return text.str();
 }
 
-/// Numbers called "STAGE" or "STAGE.NAME" of several measures as one table: a row a stage, a column a measure.
-void print_numbers(std::ostream& out, const RunResult& result) {
+/// The labels of the inputs of which a step takes several: the stages that it measures.
+std::vector<std::string> stages_of(const PlannedStep& step) {
+  std::vector<std::string> stages;
+  for (std::size_t p = 0; p < step.inputs.size(); ++p)
+    if (step.description->inputs[p].access == Access::several)
+      for (const Wire& wire : step.inputs[p]) stages.push_back(wire.label);
+  return stages;
+}
+
+/// Numbers called "STAGE" or "STAGE.NAME" of all measures as one table: a row a stage, a column a measure.
+void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result) {
   std::vector<std::string> columns, rows;
   std::map<std::pair<std::string, std::string>, std::string> cells;
   const auto note = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
   for (const MadeMetrics& made : result.metrics) {
-    if (!made.metrics->edges.empty()) continue;  // a solver's account belongs into metrics.json
-    for (const Number& number : made.metrics->numbers) {
-      const auto dot = number.name.find('.');
-      const std::string row = number.name.substr(0, dot);
-      std::string column = made.path + (dot == std::string::npos ? "" : "." + number.name.substr(dot + 1));
-      if (!number.unit.empty()) column += " [" + number.unit + "]";
-      note(rows, row);
-      note(columns, column);
-      cells[{row, column}] = rounded(number.value);
-    }
+    const auto step = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                   [&](const PlannedStep& s) { return s.path == made.path; });
+    for (const std::string& stage : stages_of(*step))
+      for (const Number& number : made.metrics->numbers) {
+        if (number.name != stage && !number.name.starts_with(stage + ".")) continue;
+        std::string column = made.path + number.name.substr(stage.size());
+        if (!number.unit.empty()) column += " [" + number.unit + "]";
+        note(rows, stage);
+        note(columns, column);
+        cells[{stage, column}] = rounded(number.value);
+      }
   }
   if (rows.empty()) return;
   std::size_t first = 0;
@@ -59,7 +69,7 @@ void print_times(std::ostream& out, const RunResult& result) {
 
 void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
                    bool times) {
-  print_numbers(out, result);
+  print_numbers(out, plan, result);
   out << "\n";
   for (const LoopEnd& loop : result.loops)
     out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";

@@ -43,7 +43,7 @@ struct MeasureTrajectory : WholeStep {
     const Trajectory truth = read_tum(*params.truth);
     for (const auto& [label, trajectory] : in.trajectories) {
       const PosePairs pairs = pair_by_stamp(*trajectory, truth, params.tolerance);
-      const std::string of = label.empty() ? "" : label + "_";
+      const std::string of = label.empty() ? "" : label + ".";
       if (pairs.size() < 3) {
         const std::string sentence = "only " + std::to_string(pairs.size()) + " poses of " +
                                      (label.empty() ? "the trajectory" : "'" + label + "'") +

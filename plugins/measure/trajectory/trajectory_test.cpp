@@ -62,8 +62,8 @@ TEST_F(MeasureTrajectoryTest, NamesNumbersByTheirLabels) {
   for (auto& pose : bent.T_world_frame) pose.translation.y() += 0.001 * pose.translation.x() * pose.translation.x();
   const auto metrics = measured({{"before", bent}, {"after", curve(50)}});
   ASSERT_EQ(metrics.numbers.size(), 8u);
-  EXPECT_EQ(metrics.numbers[0].name, "before_ate");
-  EXPECT_EQ(metrics.numbers[4].name, "after_ate");
+  EXPECT_EQ(metrics.numbers[0].name, "before.ate");
+  EXPECT_EQ(metrics.numbers[4].name, "after.ate");
   EXPECT_GT(metrics.numbers[0].value, 0.1);
   EXPECT_LT(metrics.numbers[4].value, 1e-6);
 }
