@@ -1,0 +1,130 @@
+#include "calibration.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+
+#include "plumb/data/error.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/plugin/testing.hpp"
+
+extern "C" const PlumbModule* plumb_module();
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Three frames; frame k has the points (k, 1, 2) and one that is no number. The camera looks along
+/// the laser's x.
+struct KittiFolder : testing::Test {
+  fs::path path = fs::temp_directory_path() / ("plumb_kitti_" + std::to_string(::getpid()));
+  KittiFolder() {
+    fs::create_directories(path / "velodyne");
+    for (int k = 0; k < 3; ++k) {
+      const float nan = std::numeric_limits<float>::quiet_NaN();
+      const float points[8] = {static_cast<float>(k), 1, 2, 0.5f, nan, 0, 0, 0};
+      write("velodyne/00000" + std::to_string(k) + ".bin",
+            std::string(reinterpret_cast<const char*>(points), sizeof points));
+    }
+    write("times.txt", "0\n1.0e-01\n0.2\n");
+    // The camera goes 5 m along its z, which is forward.
+    write("poses.txt",
+          "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 5\n1 0 0 0 0 1 0 0 0 0 1 10\n");
+    write("calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n");
+  }
+  ~KittiFolder() override { fs::remove_all(path); }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path / name, std::ios::binary) << bytes;
+  }
+  struct Result {
+    LazyItems frames;
+    Trajectory trajectory;
+  };
+  Result run(TestContext& context, ParameterValues values = {}) const {
+    values.emplace("path", path.string());
+    const Step& step = *plumb_module()->steps[0];
+    PortOutput outputs[2];
+    step.run(step.parameters(values).get(), {}, outputs, context);
+    return {outputs[0].lazy, *outputs[1].one.as<Trajectory>()};
+  }
+  std::string refusal(ParameterValues values = {}) const {
+    TestContext context;
+    try {
+      const auto result = run(context, std::move(values));
+      for (std::size_t k = 0; k < result.frames.keys.size(); ++k) result.frames.open(k, context);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+};
+
+TEST_F(KittiFolder, IsReadFrameByFrame) {
+  TestContext context;
+  const auto sequence = run(context);
+  ASSERT_EQ(sequence.frames.keys.size(), 3u);
+  EXPECT_EQ(sequence.trajectory.stamps[1], 0.1);
+  EXPECT_EQ(sequence.trajectory.T_world_frame[2].translation, Eigen::Vector3d(0, 0, 10));
+  const auto frame = sequence.frames.open(2, context).as<Frame>();
+  EXPECT_EQ(frame->index, 2u);
+  ASSERT_EQ(frame->cloud.size(), 1u);
+  EXPECT_EQ(frame->cloud.point(0), Eigen::Vector3f(2, 1, 2));
+  EXPECT_EQ(frame->cloud.intensity[0], 0.5f);
+  EXPECT_EQ(context.counts["points with a coordinate that is no number dropped"], 1u);
+}
+
+TEST_F(KittiFolder, GivesTheLasersPosesWhereACalibrationIsNamed) {
+  TestContext context;
+  const auto sequence = run(context, {{"calibration", (path / "calib.txt").string()}});
+  const auto& poses = sequence.trajectory.T_world_frame;
+  EXPECT_LT(poses[0].translation.norm() + angle(poses[0]), 1e-12);
+  EXPECT_LT((poses[2].translation - Eigen::Vector3d(10, 0, 0)).norm(),
+            1e-12);  // forward is the laser's x
+}
+
+TEST_F(KittiFolder, KeepsWhatTheCameraSawWhereItWas) {
+  const Pose T_camera_laser = read_calibration(path / "calib.txt");
+  const Pose T_world_camera(exp_rotation({0.1, -0.4, 0.2}), {3, 4, 5});
+  Trajectory trajectory{{0}, {T_world_camera}};
+  camera_to_laser(trajectory, T_camera_laser);
+  const Eigen::Vector3d p(7, -2, 1);  // in the laser's frame
+  const Eigen::Vector3d by_camera = T_world_camera * (T_camera_laser * p);
+  EXPECT_LT((T_camera_laser * (trajectory.T_world_frame[0] * p) - by_camera).norm(), 1e-12);
+}
+
+TEST_F(KittiFolder, IsRefusedWhenAScanIsCutShort) {
+  write("velodyne/000001.bin", std::string(30, '\0'));
+  EXPECT_THAT(refusal(), HasSubstr("000001.bin: has 30 bytes, which is no multiple of 16"));
+}
+
+TEST_F(KittiFolder, IsRefusedWithoutFramesPosesOrTimes) {
+  EXPECT_THAT(refusal({{"path", (path / "none").string()}}), HasSubstr("there is no such folder"));
+  EXPECT_THAT(refusal({{"poses", (path / "none.txt").string()}}),
+              HasSubstr("none.txt: cannot be opened"));
+  fs::remove(path / "velodyne/000001.bin");
+  EXPECT_THAT(refusal(),
+              HasSubstr("has 2 frames, but " + (path / "poses.txt").string() + " has 3 poses"));
+  fs::remove(path / "times.txt");
+  EXPECT_THAT(refusal(), HasSubstr("times.txt: cannot be opened"));
+  fs::remove_all(path / "velodyne");
+  EXPECT_THAT(refusal(), HasSubstr("velodyne: there is no such folder"));
+  fs::create_directories(path / "velodyne");
+  EXPECT_THAT(refusal(), HasSubstr("has no frames"));
+}
+
+TEST_F(KittiFolder, IsRefusedWithACalibrationThatIsNone) {
+  const ParameterValues values = {{"calibration", (path / "calib.txt").string()}};
+  write("calib.txt", "P0: 1 2 3\n");
+  EXPECT_THAT(refusal(values), HasSubstr("calib.txt: has no line 'Tr:'"));
+  write("calib.txt", "\nTr: 1 0 0 0 0 1 0 0 0 0 1\n");
+  EXPECT_THAT(refusal(values), HasSubstr("calib.txt:2: expected 12 numbers"));
+  write("calib.txt", "Tr: 2 0 0 0 0 2 0 0 0 0 2 0\n");
+  EXPECT_THAT(refusal(values), HasSubstr("is no rotation"));
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,81 @@
+#include "plumb/data/io/bin_file.hpp"
+#include "plumb/data/io/file_text.hpp"
+#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/plugin/module.hpp"
+#include "scans.hpp"
+
+namespace plumb {
+namespace {
+
+enum class Body { sensor, vehicle };
+
+struct MulRan : WholeStep {
+  struct In {};
+  struct Out {
+    Lazy<Frame> frames;
+    Trajectory trajectory;
+  };
+  struct Params {
+    std::filesystem::path path, trajectory;
+    Body poses_of = Body::sensor;
+    double most_gap = 1;
+  };
+
+  static void describe(Declaration<MulRan>& is) {
+    is.name("source.mulran").version(1).source("[Kim2020]");
+    is.summary("Reads laser scans of the MulRan data set and a trajectory with other stamps.");
+    is.output("frames", &Out::frames, "one laser scan a frame, read when it is needed");
+    is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
+    is.param("path", &Params::path)
+        .required()
+        .doc("folder with Ouster/*.bin or *.bin, named by their stamps [ns]");
+    is.param("trajectory", &Params::trajectory)
+        .required()
+        .doc("TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv)");
+    is.choice("poses_of", &Params::poses_of,
+              {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
+               {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})
+        .doc("what the trajectory's poses are those of");
+    is.param("most_gap", &Params::most_gap)
+        .unit("s")
+        .range(0, 3600)
+        .doc("time between two poses up to which scans between them are kept");
+  }
+
+  Out run(const In&, const Params& params, Context& context) const {
+    const auto scans = scans_of(params.path);
+    auto placing = placed(scans, read_trajectory(params.trajectory), params.most_gap);
+    if (placing.outside)
+      context.count("frames outside the trajectory's time left out", placing.outside);
+    if (placing.in_gap) context.count("frames in gaps of the trajectory left out", placing.in_gap);
+    if (placing.scans.size() < 2)
+      io::refuse(params.path, "has " + std::to_string(scans.size()) + " frames, of which " +
+                                  std::to_string(placing.scans.size()) +
+                                  " lie within the time of " + params.trajectory.string() +
+                                  ", but at least 2 are needed: give the trajectory of this drive");
+    if (params.poses_of == Body::vehicle)
+      for (Pose& pose : placing.trajectory.T_world_frame) pose = pose * mulran_laser_on_vehicle();
+
+    Out out;
+    out.trajectory = std::move(placing.trajectory);
+    for (const Scan& scan : placing.scans) out.frames.keys.push_back(io::key_of(scan.file));
+    out.frames.open = [kept = std::move(placing.scans)](std::size_t k, Context& reading) {
+      auto [cloud, dropped] = read_bin(kept[k].file.path);
+      if (dropped) reading.count("points with a coordinate that is no number dropped", dropped);
+      return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
+    };
+    return out;
+  }
+
+  static Trajectory read_trajectory(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension == ".csv") return read_mulran_csv(file);
+    if (extension == ".tum" || extension == ".txt") return read_tum(file);
+    io::refuse(file, "is neither .tum, .txt nor .csv, so its format is not known: rename it");
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::MulRan)
