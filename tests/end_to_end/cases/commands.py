@@ -1,0 +1,156 @@
+"""Every command says what it promises, with exit codes that scripts can trust."""
+import json
+import os
+import re
+
+from plumb_test import (BUILD, CAR, CASCADE, PLUMB, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence,
+                        step_names)
+
+COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate"]
+INPUT = ["--set", "input=anywhere"]  # checking reads no data
+
+
+def test_help_names_every_command_and_the_exit_codes(folder):
+    plumb("--help").has(*COMMANDS, "Exit: 0", "plumb simulate city_loop")
+    assert re.fullmatch(r"\d+\.\d+\.\d+\n", plumb("--version").out)
+
+
+def test_each_command_has_help_with_its_options(folder):
+    expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
+                "graph": ["mermaid", "dot"], "inspect": ["--json"], "schema": ["--output"],
+                "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"]}
+    for command in COMMANDS:
+        plumb(command, "--help").has("Usage: plumb " + command, *expected.get(command, []))
+
+
+def test_a_wrong_command_line_exits_with_2(folder):
+    for arguments in ([], ["fly"], ["run"], ["run", CASCADE], ["check"], ["check", CASCADE, "--fast"], ["inspect"],
+                      ["graph", CASCADE, "--format", "png"], ["evaluate", "a"], ["simulate"],
+                      ["run", CASCADE, "-o", folder / "out", "--threads", "many"]):
+        said = plumb(*arguments, code=WRONG_COMMAND_LINE)
+        assert said.err.strip() and not said.out, said
+    assert not (folder / "out").exists()
+
+
+def test_check_of_a_good_pipeline_shows_the_passes_of_each_loop(folder):
+    plumb("check", CASCADE, *INPUT).has("good", "gate", "4 m", "reach", "1.5 m")
+
+
+def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):
+    file = folder / "wrong.yaml"
+    file.write_text(CASCADE.read_text().replace("use: prune.kmeans", "use: prune.kmean", 1))
+    line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "prune.kmean," in text)
+    plumb("check", file, *INPUT, code=WRONG_INPUT).has(f"wrong.yaml:{line}:", "Did you mean 'prune.kmeans'?")
+    plumb("check", folder / "none.yaml", code=WRONG_INPUT).has("none.yaml")
+
+
+def test_check_says_that_the_input_is_missing(folder):
+    plumb("check", CASCADE, code=WRONG_INPUT).has("'input'")
+
+
+def test_resolve_shows_each_value_with_its_origin(folder):
+    said = plumb("resolve", CASCADE, "--preset", CAR, *INPUT, "--set", "coarse.gate=3 m,1 m")
+    said.has("[3 m, 1 m]", "--set", "car_64line.yaml", "default of prune.kmeans", "segment.by_distance")
+
+
+def test_a_resolved_pipeline_is_a_pipeline_that_resolves_to_itself(folder):
+    file = folder / "resolved.yaml"
+    values = lambda text: [line.split("  #")[0].rstrip() for line in text.splitlines()]
+    first = plumb("resolve", CASCADE, "--preset", CAR, *INPUT).out
+    file.write_text(first)
+    plumb("check", file).has("good")
+    assert values(plumb("resolve", file).out) == values(first)
+
+
+def test_graph_draws_every_step_in_both_formats(folder):
+    mermaid, dot = (plumb("graph", CASCADE, *INPUT, "--format", form).out for form in ("mermaid", "dot"))
+    assert mermaid.startswith(("flowchart", "graph", "---")) and dot.startswith("digraph") and dot.rstrip().endswith("}")
+    for step in set(re.findall(r"use: ([a-z0-9_.]+)", CASCADE.read_text())):
+        assert step in mermaid and step in dot, step
+    assert dot.count("{") == dot.count("}")
+
+
+def test_list_and_inspect_show_every_installed_step(folder):
+    names = step_names()
+    modules = sorted(f.name[:-3] for f in (BUILD / "lib/plumb").glob("*.so"))
+    assert sorted(names) == modules
+    for name in names:
+        text = plumb("inspect", name).out
+        declared = json.loads(plumb("inspect", name, "--json").out)
+        assert text.startswith(name) and "Inputs" in text and "Outputs" in text and "Parameters" in text
+        for parameter in declared["parameters"]:
+            assert parameter["doc"] and f"  {parameter['name']}: " in text, (name, parameter["name"])
+        for port in declared["inputs"] + declared["outputs"]:
+            assert port["doc"], (name, port["name"])
+        assert declared["summary"].endswith("."), name
+
+
+def test_inspect_of_an_unknown_step_offers_the_nearest(folder):
+    refused(plumb("inspect", "prune.kmens", code=WRONG_INPUT), "prune.kmens", "Did you mean 'prune.kmeans'?", "plumb list")
+
+
+def test_doctor_finds_all_modules_and_every_one_loads(folder):
+    said = plumb("doctor")
+    count = len(step_names())
+    said.has(f"{count} steps in {count} modules; {count} load", "ABI: plumb-sdk", str((BUILD / "lib/plumb").resolve()))
+    assert "refused" not in said.out
+
+
+def test_doctor_refuses_a_folder_that_others_may_write_into(folder):
+    loose = folder / "loose"
+    loose.mkdir()
+    loose.chmod(0o777)
+    plumb("--plugin-path", loose, "doctor", code=WRONG_INPUT).has("refused", str(loose), "chmod o-w")
+    plumb("doctor", environment={"PLUMB_PLUGIN_PATH": str(folder / "none")}, code=WRONG_INPUT).has("there is no such folder")
+
+
+def test_doctor_refuses_a_file_that_is_no_module(folder):
+    folder.chmod(0o755)
+    (folder / "filter.torn.so").write_text("not a module")
+    plumb("--plugin-path", folder, "doctor", code=WRONG_INPUT).has("filter.torn.so", "manifest")
+    (folder / "filter.torn.json").write_text('{"plumb_manifest": ')
+    plumb("--plugin-path", folder, "doctor", code=WRONG_INPUT).has("refused", "filter.torn")
+    plumb("--plugin-path", folder, "list").has("1 refused; `plumb doctor` says why")
+
+
+def test_simulate_writes_a_sequence_and_the_scene_that_repeats_it(folder):
+    arguments = ["--frames", 6, "--lines", 4, "--columns", 64, "--drift", 0.5]
+    plumb("simulate", "blocks", *arguments, "--seed", 7, "-o", folder / "a").has("6 frames")
+    assert sorted(p.name for p in (folder / "a").iterdir()) == ["frames", "odometry.tum", "scene.yaml", "truth.tum"]
+    assert len(list((folder / "a/frames").glob("*.pcd"))) == 6
+    plumb("simulate", folder / "a/scene.yaml", "-o", folder / "b")
+    assert files_of(folder / "a") == files_of(folder / "b")
+    plumb("simulate", "blocks", *arguments, "--seed", 8, "-o", folder / "c")
+    assert files_of(folder / "a")["odometry.tum"] != files_of(folder / "c")["odometry.tum"]
+
+
+def test_simulate_makes_the_same_bytes_with_one_and_with_two_threads(folder):
+    for threads in (1, 2):
+        plumb("simulate", "figure_eight", "--frames", 8, "--lines", 8, "--columns", 128, "--threads", threads, "-o", folder / str(threads))
+    assert files_of(folder / "1") == files_of(folder / "2")
+
+
+def test_simulate_refuses_what_it_cannot_make(folder):
+    out = folder / "out"
+    few = ["--frames", 4, "--lines", 4, "--columns", 32, "-o", out]
+    for arguments in (["moon"], ["--path", folder / "none.tum"], ["blocks", "--noise", "2deg"], ["blocks", "--seed", "x"]):
+        said = plumb("simulate", *arguments, *few, code=WRONG_INPUT)
+        assert len(said.err.strip()) > 30, said
+        assert not out.exists()
+    out.mkdir()
+    (out / "thesis.tex").write_text("mine")
+    plumb("simulate", "blocks", *few, code=WRONG_INPUT).has("holds something that the simulator did not make", "another folder")
+    assert files_of(out) == {"thesis.tex": b"mine"}
+
+
+def test_evaluate_prints_a_table_and_refuses_what_is_missing(folder):
+    street = sequence("street")
+    plumb("evaluate", street, street / "truth.tum", "--clouds").has("before", "after", "60/60", "ATE", "ghosting")
+    refused(plumb("evaluate", street, folder / "none.tum", code=WRONG_INPUT), "none.tum")
+    refused(plumb("evaluate", folder, street / "truth.tum", code=WRONG_INPUT), "has no truth.tum", "--truth")
+
+
+def test_the_command_works_from_any_folder_and_with_relative_paths(folder):
+    street = os.path.relpath(sequence("street"), folder)
+    plumb("check", os.path.relpath(CASCADE, folder), "--set", f"input={street}", cwd=folder).has("good")
+    assert plumb("evaluate", street, f"{street}/odometry.tum", "--json", cwd=folder, program=PLUMB).out.startswith("{")

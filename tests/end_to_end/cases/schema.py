@@ -1,0 +1,135 @@
+"""The JSON Schema says of pipelines what the command says."""
+import json
+import re
+
+import jsonschema
+import yaml
+
+from plumb_test import CASCADE, PIPELINES, SOURCE, WRONG_INPUT, plumb, step_names
+
+SCHEMA = SOURCE / "schemas/pipeline.schema.json"
+
+
+def pipelines():
+    files = sorted(PIPELINES.rglob("*.yaml"))
+    assert len(files) >= 4, files
+    return files
+
+
+def judge():
+    schema = json.loads(plumb("schema").out)
+    jsonschema.Draft7Validator.check_schema(schema)
+    return jsonschema.Draft7Validator(schema)
+
+
+class PlainLoader(yaml.SafeLoader):
+    """YAML 1.2's core schema, which editors judge by: yes, no, on and off are words."""
+
+
+PlainLoader.yaml_implicit_resolvers = {key: [(tag, pattern) for tag, pattern in resolvers if tag != "tag:yaml.org,2002:bool"]
+                                       for key, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+PlainLoader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile("^(true|false)$"), list("tf"))
+
+
+def read(text):
+    return yaml.load(text, PlainLoader)
+
+
+def test_checked_in_is_the_one_that_the_steps_declare(folder):
+    assert SCHEMA.exists(), "write it: plumb schema -o schemas"
+    assert SCHEMA.read_text() == plumb("schema").out, "a declaration changed; write the schema again: plumb schema -o schemas"
+
+
+def test_is_written_into_a_folder_or_refused(folder):
+    plumb("schema", "-o", folder)
+    assert (folder / "pipeline.schema.json").read_text() == plumb("schema").out
+    plumb("schema", "-o", folder / "none", code=WRONG_INPUT).has("none", "does the folder exist?")
+
+
+def test_is_draft_07_and_has_every_step_in_its_enum(folder):
+    schema = judge().schema
+    assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
+    step = schema["definitions"]["step"]
+    assert step["properties"]["use"]["enum"] == step_names()
+    assert sorted(rule["if"]["properties"]["use"]["const"] for rule in step["allOf"]) == step_names()
+
+
+def test_is_named_by_the_first_line_of_every_pipeline(folder):
+    for file in pipelines():
+        first = file.read_text().splitlines()[0]
+        found = re.fullmatch(r"# yaml-language-server: \$schema=(\S+)", first)
+        assert found, f"{file}: the first line is no modeline: {first}"
+        assert (file.parent / found[1]).resolve() == SCHEMA, f"{file}: the modeline names {found[1]}"
+
+
+def test_accepts_every_pipeline_and_preset(folder):
+    validator = judge()
+    for file in pipelines():
+        errors = [f"{list(e.absolute_path)}: {e.message}" for e in validator.iter_errors(read(file.read_text()))]
+        assert not errors, f"{file}: {errors}"
+
+
+def test_accepts_what_resolve_prints(folder):
+    text = plumb("resolve", CASCADE, "--set", "input=anywhere").out
+    errors = [f"{list(e.absolute_path)}: {e.message}" for e in judge().iter_errors(read(text))]
+    assert not errors, errors
+
+
+# What is wrong, and the piece of tang2024.yaml that is exchanged to make it so.
+MISTAKES = {
+    "an unknown step": ("use: prune.kmeans", "use: prune.k_means"),
+    "an unknown key": ("use: describe.esf,               from:", "use: describe.esf,               form:"),
+    "an unknown parameter": ("with: {frames: 60}", "with: {frame: 60}"),
+    "an unknown port": ("from: {frames: ranged, ranges: ranges.ranges}", "from: {frames: ranged, range: ranges.ranges}"),
+    "an unknown unit": ("cap:       {type: length, default: 0.5 m", "cap:       {type: length, default: 0.5 ell"),
+    "a length without a unit": ("leaf:      {type: length, default: 0.3 m", "leaf:      {type: length, default: 0.3"),
+    "an angle for a length": ("default: 300 m", "default: 300 deg"),
+    "a number that should be whole": ("{frames: 60}", "{frames: 6.5}"),
+    "a number out of range": ("{frames: 60}", "{frames: 0}"),
+    "an unknown choice": ("loss: geman_mcclure", "loss: german_mcclure"),
+    "an unknown type of a parameter": ("input:     {type: path", "input:     {type: pth"),
+    "another version of the language": ("plumb: 1", "plumb: 2"),
+    "no steps": ("steps:\n  # 2.2", "stages:\n  # 2.2"),
+    "a name that is none": ("  ranges:   {use", "  2ranges:   {use"),
+    "a yes for a truth value": ("loss: geman_mcclure,", "loss: geman_mcclure, hold_sequential: yes,"),
+    "an unknown key of a loop": ("if_exhausted: accept", "if_exhausted: accept\n      colour: red"),
+    "until without a bound": ("falls_by_less_than: 2 %", "falls: 2 %"),
+    "an unknown ending": ("if_exhausted: accept", "if_exhausted: shrug"),
+    "input to a source": ("use: source.sequence,            with", "use: source.sequence, from: ranges, with"),
+}
+
+
+def test_and_the_command_refuse_the_same_mistakes(folder):
+    validator = judge()
+    text = CASCADE.read_text()
+    missed = []
+    for mistake, (good, bad) in MISTAKES.items():
+        assert good in text, f"'{good}' is no longer in {CASCADE.name}; change the test"
+        file = folder / "wrong.yaml"
+        file.write_text(text.replace(good, bad, 1))
+        said = plumb("check", file, "--set", "input=anywhere", code=WRONG_INPUT)
+        assert re.search(r"wrong\.yaml:\d+:\d+: ", said.err), said
+        if validator.is_valid(read(file.read_text())):
+            missed.append(mistake)
+    assert not missed, f"valid under the schema: {missed}"
+
+
+# Wrong for the command alone: a schema cannot follow names.
+BEYOND_A_SCHEMA = {
+    "a wire from a step that is not there": ("{frames: ranged, ranges: ranges.ranges}", "{frames: rangde, ranges: ranges.ranges}"),
+    "a wire of another type": ("from: thinned, with: {neighbours", "from: sequence.frames, with: {neighbours"),
+    "a value from nowhere": ("leaf: $map_leaf", "leaf: $map_leav"),
+    "a parameter that nothing uses": ("parameters:\n", "parameters:\n  spare: {type: number, default: 1}\n"),
+    "rows of different lengths": ("gate: [4 m, 2 m, 1 m]", "gate: [4 m, 2 m, 1 m]\n        other: [1, 2]"),
+    "a circle": ("use: segment.by_count,           from: sequence.trajectory", "use: segment.by_count, from: straight"),
+}
+
+
+def test_leaves_to_the_command_what_needs_names_followed(folder):
+    text = CASCADE.read_text()
+    for mistake, (good, bad) in BEYOND_A_SCHEMA.items():
+        assert good in text, f"'{good}' is no longer in {CASCADE.name}; change the test"
+        file = folder / "wrong.yaml"
+        file.write_text(text.replace(good, bad, 1))
+        said = plumb("check", file, "--set", "input=anywhere", code=WRONG_INPUT)
+        assert re.search(r"wrong\.yaml:\d+:\d+: ", said.err), f"{mistake}: {said}"
