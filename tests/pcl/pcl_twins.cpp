@@ -3,6 +3,7 @@
 #include <pcl/features/esf.h>
 #include <pcl/features/fpfh_omp.h>
 #include <pcl/features/normal_3d_omp.h>
+#include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
@@ -60,6 +61,16 @@ std::vector<float> PclCloud::esf() const {
   pcl::PointCloud<pcl::ESFSignature640> signature;
   estimate.compute(signature);
   return {signature[0].histogram, signature[0].histogram + 640};
+}
+
+std::vector<int> PclCloud::without_lonely(int neighbours, double deviations) const {
+  pcl::StatisticalOutlierRemoval<pcl::PointXYZ> remove;
+  remove.setInputCloud(held_->points);
+  remove.setMeanK(neighbours);
+  remove.setStddevMulThresh(deviations);
+  std::vector<int> kept;
+  remove.filter(kept);
+  return kept;
 }
 
 }  // namespace plumb::twins

@@ -26,6 +26,8 @@ class PclCloud {
   std::vector<float> normals(unsigned k, unsigned threads) const;
   /// ESFEstimation: 640 numbers. Seeded by the clock, in whole seconds.
   std::vector<float> esf() const;
+  /// StatisticalOutlierRemoval: the indices of the points that it keeps.
+  std::vector<int> without_lonely(int neighbours, double deviations) const;
 
  private:
   struct Held;

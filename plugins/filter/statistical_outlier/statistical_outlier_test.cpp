@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "compact_groups.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
-#ifdef PLUMB_WITH_PCL
-#include <pcl/filters/statistical_outlier_removal.h>
+#include "sum_of_nearest.hpp"
+#ifdef PLUMB_HAS_PCL
+#include "pcl_twins.hpp"
 #endif
 
 extern "C" const PlumbModule* plumb_module();
@@ -83,6 +86,36 @@ TEST(StatisticalOutlier, DoesNotDependOnTheOrderOfItsTasks) {
   EXPECT_EQ(means(cloud, 20, backwards), means(cloud, 20));
 }
 
+TEST(CompactGroups, HoldEachPointOnceAndNearOnesTogether) {
+  Cloud cloud;  // four heaps of 8, far apart, in mixed order
+  for (int k = 0; k < 32; ++k)
+    cloud.add({static_cast<float>(100 * (k % 2)), static_cast<float>(70 * (k / 2 % 2)),
+               static_cast<float>(k % 5)});
+  const auto order = compact_groups(cloud, 8);
+  EXPECT_EQ(std::set<std::uint32_t>(order.begin(), order.end()).size(), 32u);
+  for (std::size_t k = 0; k < 32; ++k)
+    EXPECT_LT((cloud.point(order[k]) - cloud.point(order[k / 8 * 8])).norm(), 5);
+  EXPECT_THAT(compact_groups(Cloud(), 8), IsEmpty());
+}
+
+TEST(SumOfNearest, AgreesWithSorting) {
+  Random random(1);
+  for (int round = 0; round < 2000; ++round) {
+    const std::size_t n = 1 + random.below(200),
+                      wanted = 1 + random.below(static_cast<std::uint32_t>(n));
+    std::vector<float> squares(n);
+    for (float& square : squares)  // in every third round many are equal
+      square = round % 3 ? static_cast<float>(random.uniform() * random.uniform())
+                         : 0.25f * static_cast<float>(random.below(4));
+    auto sorted = squares;
+    std::sort(sorted.begin(), sorted.end());
+    double sum = 0;
+    for (std::size_t k = 0; k < wanted; ++k) sum += std::sqrt(sorted[k]);
+    EXPECT_NEAR(sum_of_nearest(squares.data(), n, wanted, sorted[wanted - 1]), sum, 1e-5 * sum);
+    EXPECT_NEAR(sum_of_nearest(squares.data(), n, wanted, 7), sum, 1e-5 * sum);
+  }
+}
+
 TEST(StatisticalOutlier, CountsEqualPointsAsNeighbours) {
   Cloud cloud;
   for (int k = 0; k < 50; ++k) cloud.add({1, 2, 3});
@@ -117,18 +150,10 @@ TEST(StatisticalOutlier, DropsTheBirdsAndCountsThem) {
   EXPECT_EQ(result->frame.size(), result->cloud.size());
 }
 
-#ifdef PLUMB_WITH_PCL
+#ifdef PLUMB_HAS_PCL
 TEST(StatisticalOutlier, KeepsThePointsThatPclKeeps) {
   const Cloud cloud = wall_with_birds(20000, 400);
-  pcl::PointCloud<pcl::PointXYZ>::Ptr input(new pcl::PointCloud<pcl::PointXYZ>);
-  for (std::size_t k = 0; k < cloud.size(); ++k)
-    input->push_back({cloud.x[k], cloud.y[k], cloud.z[k]});
-  pcl::StatisticalOutlierRemoval<pcl::PointXYZ> pcl_filter;
-  pcl_filter.setInputCloud(input);
-  pcl_filter.setMeanK(20);
-  pcl_filter.setStddevMulThresh(2);
-  std::vector<int> theirs;
-  pcl_filter.filter(theirs);
+  const auto theirs = twins::PclCloud(cloud.x, cloud.y, cloud.z, {}, {}, {}).without_lonely(20, 2);
   const auto ours = not_beyond(means(cloud, 20), 2);
   EXPECT_EQ(std::vector<int>(ours.begin(), ours.end()), theirs);
 }
