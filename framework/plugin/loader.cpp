@@ -7,7 +7,10 @@
 
 namespace plumb {
 
-const char* abi_tag() { return PLUMB_ABI_TAG; }
+const char* abi_tag() {
+  static const std::string tag = PLUMB_ABI_TAG + abi_layout();
+  return tag.c_str();
+}
 
 std::vector<const Step*> load_module(const std::filesystem::path& file) {
   const std::string name = file.string();

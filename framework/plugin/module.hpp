@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <tuple>
 
 #include "plumb/plugin/declaration.hpp"
@@ -35,12 +36,20 @@ namespace plumb {
 inline constexpr std::uint32_t module_magic = 0x504c554d;
 inline constexpr std::uint32_t module_table_version = 1;
 
+/// How the values that cross the boundary lie in memory here: instruction set and definitions change how Eigen aligns a pose.
+inline std::string abi_layout() {
+  return ", pose " + std::to_string(sizeof(Pose)) + "/" + std::to_string(alignof(Pose)) + ", port " +
+         std::to_string(sizeof(PortInput)) + "/" + std::to_string(sizeof(PortOutput)) + ", segment " +
+         std::to_string(sizeof(Segment));
+}
+
 /// The table of a module with the steps S.
 template <class... S>
 const PlumbModule* module_of(const char* abi_tag) {
   static std::tuple<StepOf<S>...> steps;
   static Step* const list[] = {&std::get<StepOf<S>>(steps)...};
-  static const PlumbModule table = {module_magic, module_table_version, abi_tag, sizeof...(S), list};
+  static const std::string tag = std::string(abi_tag) + abi_layout();
+  static const PlumbModule table = {module_magic, module_table_version, tag.c_str(), sizeof...(S), list};
   return &table;
 }
 

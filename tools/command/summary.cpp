@@ -32,7 +32,9 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
   for (const MadeMetrics& made : result.metrics) {
     const auto step = std::find_if(plan.steps.begin(), plan.steps.end(),
                                    [&](const PlannedStep& s) { return s.path == made.path; });
-    for (const std::string& stage : stages_of(*step))
+    const auto stages = stages_of(*step);
+    if (stages.size() < 2) continue;  // a loop's own measure
+    for (const std::string& stage : stages)
       for (const Number& number : made.metrics->numbers) {
         if (number.name != stage && !number.name.starts_with(stage + ".")) continue;
         std::string column = made.path + number.name.substr(stage.size());

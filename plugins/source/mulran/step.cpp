@@ -16,7 +16,8 @@ struct MulRan : WholeStep {
     Trajectory trajectory;
   };
   struct Params {
-    std::filesystem::path path, trajectory;
+    std::filesystem::path path;
+    std::optional<std::filesystem::path> trajectory;
     Body poses_of = Body::sensor;
     double most_gap = 1;
   };
@@ -30,8 +31,7 @@ struct MulRan : WholeStep {
         .required()
         .doc("folder with Ouster/*.bin or *.bin, named by their stamps [ns]");
     is.param("trajectory", &Params::trajectory)
-        .required()
-        .doc("TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv)");
+        .doc("TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv); none: odometry.tum in the folder");
     is.choice("poses_of", &Params::poses_of,
               {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
                {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})
@@ -44,14 +44,15 @@ struct MulRan : WholeStep {
 
   Out run(const In&, const Params& params, Context& context) const {
     const auto scans = scans_of(params.path);
-    auto placing = placed(scans, read_trajectory(params.trajectory), params.most_gap);
+    const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
+    auto placing = placed(scans, read_trajectory(poses_from), params.most_gap);
     if (placing.outside)
       context.count("frames outside the trajectory's time left out", placing.outside);
     if (placing.in_gap) context.count("frames in gaps of the trajectory left out", placing.in_gap);
     if (placing.scans.size() < 2)
       io::refuse(params.path, "has " + std::to_string(scans.size()) + " frames, of which " +
                                   std::to_string(placing.scans.size()) +
-                                  " lie within the time of " + params.trajectory.string() +
+                                  " lie within the time of " + poses_from.string() +
                                   ", but at least 2 are needed: give the trajectory of this drive");
     if (params.poses_of == Body::vehicle)
       for (Pose& pose : placing.trajectory.T_world_frame) pose = pose * mulran_laser_on_vehicle();
