@@ -1,19 +1,19 @@
 """Makes the small sequences that the cases run on, once for all of them (the ctest fixture).
 
-street    out and back, 60 scans 1 m apart of 16 x 512 rays, drift of 1.5 m: every place is seen twice
-straight  30 scans along a line that never returns, along a given TUM file
-walk      out and back by hand's speed: 60 scans 0.25 m apart, of a denser, shorter-sighted scanner
+street    out and back, 90 scans 2 m apart of 16 x 512 rays, drift of 4 m: every place is seen twice
+straight  30 scans 1 m apart on a way that never returns, along a TUM file
+walk      out and back on foot: 90 scans 0.3 m apart, of a denser scanner that sees 40 m
 """
 import math
 import shutil
 
 from plumb_test import SEQUENCES, plumb
 
-SCANNER = ["--lines", "16", "--columns", "512"]
+SCANNER = ["--lines", 16, "--columns", 512]
 
 
-def straight_line(file, frames):
-    """Poses 1 m apart along x, driving along a gentle wave so that the path is no singular line."""
+def way_without_return(file, frames):
+    """Poses 1 m apart along x, swaying a little so that the positions are no singular line."""
     with open(file, "w") as out:
         for k in range(frames):
             yaw = 0.05 * math.sin(0.2 * k)
@@ -23,12 +23,11 @@ def straight_line(file, frames):
 def main():
     shutil.rmtree(SEQUENCES, ignore_errors=True)
     SEQUENCES.mkdir(parents=True)
-    plumb("simulate", "out_and_back", "--frames", 60, *SCANNER, "--drift", 1.5, "-o", SEQUENCES / "street")
-    line = SEQUENCES / "line.tum"
-    straight_line(line, 30)
-    plumb("simulate", "--path", line, *SCANNER, "--drift", 0.2, "-o", SEQUENCES / "straight")
-    plumb("simulate", "out_and_back", "--frames", 60, "--length", "30m", "--lines", 32, "--columns", 512, "--range", "40m",
-          "--lowest", "-35deg", "--highest", "35deg", "--drift", 0.5, "-o", SEQUENCES / "walk")
+    plumb("simulate", "out_and_back", "--frames", 90, "--length", "180m", *SCANNER, "--drift", 4, "-o", SEQUENCES / "street")
+    plumb("simulate", "out_and_back", "--frames", 90, "--length", "27m", "--lines", 32, "--columns", 512, "--range", "40m",
+          "--lowest", "-35deg", "--highest", "35deg", "--drift", 1, "-o", SEQUENCES / "walk")
+    way_without_return(SEQUENCES / "way.tum", 30)
+    plumb("simulate", "--path", SEQUENCES / "way.tum", *SCANNER, "--drift", 0.5, "-o", SEQUENCES / "straight")
 
 
 if __name__ == "__main__":
