@@ -1,0 +1,345 @@
+/// The steps that test_steps.hpp offers: they declare ports and parameters like the real ones and
+/// do nothing.
+#include "plumb/pipeline/test_steps.hpp"
+#include "plumb/plugin/declaration.hpp"
+
+namespace plumb::test {
+namespace {
+
+struct SequenceSource : WholeStep {
+  struct In {};
+  struct Out {
+    Lazy<Frame> frames;
+    Trajectory trajectory;
+  };
+  struct Params {
+    std::filesystem::path path;
+    std::optional<std::filesystem::path> trajectory;
+  };
+  static void describe(Declaration<SequenceSource>& is) {
+    is.name("source.sequence");
+    is.output("frames", &Out::frames, "").output("trajectory", &Out::trajectory, "");
+    is.param("path", &Params::path).required().doc("the folder");
+    is.param("trajectory", &Params::trajectory).doc("a TUM file");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct DistanceFilter : FrameStep {
+  struct In {
+    One<Frame> frame;
+  };
+  struct Out {
+    Frame frame;
+  };
+  struct Params {
+    double min = 0.5, max = 300;
+  };
+  static void describe(Declaration<DistanceFilter>& is) {
+    is.name("filter.distance");
+    is.input("frame", &In::frame, "").output("frame", &Out::frame, "");
+    is.param("min", &Params::min).unit("m").range(0, 100).doc("nearest");
+    is.param("max", &Params::max).unit("m").range(0, 1000).doc("farthest");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct ByCount : WholeStep {
+  struct In {
+    One<Trajectory> trajectory;
+  };
+  struct Out {
+    std::vector<Range> ranges;
+    Poses poses;
+  };
+  struct Params {
+    int frames = 60;
+  };
+  static void describe(Declaration<ByCount>& is) {
+    is.name("segment.by_count");
+    is.input("trajectory", &In::trajectory, "");
+    is.output("ranges", &Out::ranges, "").output("poses", &Out::poses, "");
+    is.param("frames", &Params::frames).range(1, 10000).doc("frames a segment");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Merge : SegmentStep {
+  struct In {
+    Each<Frame> frames;
+    One<Range> ranges;
+  };
+  struct Out {
+    Segment segment;
+  };
+  struct Params {};
+  static void describe(Declaration<Merge>& is) {
+    is.name("segment.merge");
+    is.input("frames", &In::frames, "")
+        .input("ranges", &In::ranges, "")
+        .output("segment", &Out::segment, "");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct VoxelGrid : SegmentStep {
+  struct In {
+    One<Segment> segment;
+  };
+  struct Out {
+    Segment segment;
+  };
+  struct Params {
+    double leaf = 0.3;
+    bool keep_normals = true;
+  };
+  static void describe(Declaration<VoxelGrid>& is) {
+    is.name("filter.voxel_grid");
+    is.input("segment", &In::segment, "").output("segment", &Out::segment, "");
+    is.param("leaf", &Params::leaf).unit("m").range(0.01, 100).doc("edge length of a cell");
+    is.param("keep_normals", &Params::keep_normals).doc("average them too");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Fpfh : SegmentStep {
+  struct In {
+    One<Segment> segment;
+  };
+  struct Out {
+    Features features;
+  };
+  struct Params {
+    double radius = 2.5;
+    double angle = 1;
+  };
+  static void describe(Declaration<Fpfh>& is) {
+    is.name("describe.fpfh");
+    is.input("segment", &In::segment, "").output("features", &Out::features, "");
+    is.param("radius", &Params::radius).unit("m").range(0.1, 100).doc("of the neighbourhood");
+    is.param("angle", &Params::angle).unit("rad").range(0, 4).doc("of a border");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Overlap : WholeStep {
+  struct In {
+    Each<Segment> segments;
+    One<Poses> poses;
+  };
+  struct Out {
+    Edges edges;
+  };
+  struct Params {
+    std::optional<double> threshold;
+    double margin = 0.9;
+  };
+  static void describe(Declaration<Overlap>& is) {
+    is.name("edges.overlap");
+    is.input("segments", &In::segments, "")
+        .input("poses", &In::poses, "")
+        .output("edges", &Out::edges, "");
+    is.param("threshold", &Params::threshold).unit("%").range(0, 1).doc("least overlap");
+    is.param("margin", &Params::margin).range(0, 1).doc("share of the smallest");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Union : WholeStep {
+  struct In {
+    Several<Edges> edges;
+  };
+  struct Out {
+    Edges edges;
+  };
+  struct Params {};
+  static void describe(Declaration<Union>& is) {
+    is.name("edges.union");
+    is.input("edges", &In::edges, "").output("edges", &Out::edges, "");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Mutual : EdgeStep {
+  struct In {
+    OverEdges edges;
+    Ends<Features> features;
+  };
+  struct Out {
+    Matches matches;
+  };
+  struct Params {};
+  static void describe(Declaration<Mutual>& is) {
+    is.name("match.fpfh_mutual");
+    is.input("edges", &In::edges, "")
+        .input("features", &In::features, "")
+        .output("matches", &Out::matches, "");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct PruneDistance : EdgeStep {
+  struct In {
+    One<Matches> matches;
+    Relative poses;
+    ThisEdge edges;
+  };
+  struct Out {
+    Matches matches;
+  };
+  struct Params {
+    double max = 2;
+  };
+  static void describe(Declaration<PruneDistance>& is) {
+    is.name("prune.distance");
+    is.input("matches", &In::matches, "")
+        .input("poses", &In::poses, "")
+        .optional_input("edges", &In::edges, "");
+    is.output("matches", &Out::matches, "");
+    is.param("max", &Params::max).unit("m").range(0, 1000).doc("farthest apart");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct PruneKmeans : EdgeStep {
+  struct In {
+    One<Matches> matches;
+    Relative poses;
+  };
+  struct Out {
+    Matches matches;
+  };
+  struct Params {
+    int clusters = 3;
+  };
+  static void describe(Declaration<PruneKmeans>& is) {
+    is.name("prune.kmeans");
+    is.input("matches", &In::matches, "")
+        .input("poses", &In::poses, "")
+        .output("matches", &Out::matches, "");
+    is.param("clusters", &Params::clusters).range(1, 20).doc("how many");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct PruneRansac : EdgeStep {
+  struct In {
+    One<Matches> matches;
+  };
+  struct Out {
+    Matches matches;
+  };
+  struct Params {
+    double inlier = 0.5;
+    int iterations = 1000;
+  };
+  static void describe(Declaration<PruneRansac>& is) {
+    is.name("prune.ransac");
+    is.input("matches", &In::matches, "").output("matches", &Out::matches, "");
+    is.param("inlier", &Params::inlier).unit("m").range(0, 100).doc("distance");
+    is.param("iterations", &Params::iterations).range(1, 1e6).doc("tries");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Solve : WholeStep {
+  enum class Loss { none, huber, cauchy };
+  struct In {
+    One<Poses> poses;
+    Each<Matches> matches;
+  };
+  struct Out {
+    Poses poses;
+    Metrics metrics;
+  };
+  struct Params {
+    Loss loss = Loss::huber;
+    double share = 0.1;
+  };
+  static void describe(Declaration<Solve>& is) {
+    is.name("solve.pose_graph");
+    is.input("poses", &In::poses, "").optional_input("matches", &In::matches, "");
+    is.output("poses", &Out::poses, "").output("metrics", &Out::metrics, "");
+    is.choice("loss", &Params::loss,
+              {{"none", Loss::none, "squares"},
+               {"huber", Loss::huber, "Huber"},
+               {"cauchy", Loss::cauchy, "Cauchy"}})
+        .doc("what outliers cost");
+    is.param("share", &Params::share).unit("%").range(0, 1).doc("of something");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Rmse : WholeStep {
+  struct In {
+    One<Edges> edges;
+    Each<Segment> segments;
+    Several<Poses> poses;
+    One<Poses> pairs;
+  };
+  struct Out {
+    Metrics metrics;
+  };
+  struct Params {
+    double cap = 0.5;
+  };
+  static void describe(Declaration<Rmse>& is) {
+    is.name("measure.match_rmse");
+    is.input("edges", &In::edges, "")
+        .input("segments", &In::segments, "")
+        .input("poses", &In::poses, "")
+        .optional_input("pairs", &In::pairs, "");
+    is.output("metrics", &Out::metrics, "");
+    is.param("cap", &Params::cap).unit("m").range(0, 100).doc("pairs farther apart do not count");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct WriteTrajectory : WholeStep {
+  struct In {
+    One<Trajectory> trajectory;
+  };
+  struct Out {
+    Document document;
+  };
+  struct Params {
+    std::string name = "trajectory.tum";
+  };
+  static void describe(Declaration<WriteTrajectory>& is) {
+    is.name("write.trajectory");
+    is.input("trajectory", &In::trajectory, "").output("document", &Out::document, "");
+    is.param("name", &Params::name).doc("of the file");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+}  // namespace
+
+const Registry& registry() {
+  static const StepOf<SequenceSource> source;
+  static const StepOf<DistanceFilter> distance;
+  static const StepOf<ByCount> by_count;
+  static const StepOf<Merge> merge;
+  static const StepOf<VoxelGrid> voxel;
+  static const StepOf<Fpfh> fpfh;
+  static const StepOf<Overlap> overlap;
+  static const StepOf<Union> edges_union;
+  static const StepOf<Mutual> mutual;
+  static const StepOf<PruneDistance> prune_distance;
+  static const StepOf<PruneKmeans> kmeans;
+  static const StepOf<PruneRansac> ransac;
+  static const StepOf<Solve> solve;
+  static const StepOf<Rmse> rmse;
+  static const StepOf<WriteTrajectory> write;
+  static const Registry all = [] {
+    Registry made;
+    for (const Step* step : std::initializer_list<const Step*>{
+             &source, &distance, &by_count, &merge, &voxel, &fpfh, &overlap, &edges_union, &mutual,
+             &prune_distance, &kmeans, &ransac, &solve, &rmse, &write})
+      made.add(*step);
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace plumb::test
