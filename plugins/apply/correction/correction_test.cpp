@@ -18,7 +18,7 @@ Trajectory drive(std::size_t frames) {
   return t;
 }
 
-struct Run {
+struct Drive {
   Trajectory trajectory = drive(40);
   std::vector<Range> ranges = ranges_from(trajectory, {0, 10, 20, 30});
   Poses poses = poses_of(ranges);
@@ -29,7 +29,7 @@ double distance(const Pose& a, const Pose& b) {
 }
 
 TEST(Correction, LeavesATrajectoryWhoseSegmentsStay) {
-  const Run run;
+  const Drive run;
   for (const bool blend : {true, false}) {
     const auto result = corrected(run.trajectory, run.ranges, run.poses, blend);
     EXPECT_EQ(result.stamps, run.trajectory.stamps);
@@ -39,7 +39,7 @@ TEST(Correction, LeavesATrajectoryWhoseSegmentsStay) {
 }
 
 TEST(Correction, IsExactForOneRigidMotionOfAllSegments) {
-  Run run;
+  Drive run;
   const Pose motion(exp_rotation({0.1, -0.2, 1.5}), {500, -300, 20});
   for (auto& pose : run.poses.T_world_segment) pose = motion * pose;
   const auto result = corrected(run.trajectory, run.ranges, run.poses, true);
@@ -48,7 +48,7 @@ TEST(Correction, IsExactForOneRigidMotionOfAllSegments) {
 }
 
 TEST(Correction, MakesNoStepWhereASegmentEnds) {
-  Run run;
+  Drive run;
   run.poses.T_world_segment[1].translation += Eigen::Vector3d(0, 1, 0);
   const auto largest_step = [&](bool blend) {
     const auto result = corrected(run.trajectory, run.ranges, run.poses, blend);
@@ -63,7 +63,7 @@ TEST(Correction, MakesNoStepWhereASegmentEnds) {
 }
 
 TEST(Correction, TakesEachSegmentsOwnPoseAtItsMiddle) {
-  Run run;
+  Drive run;
   for (std::size_t s = 0; s < 4; ++s)
     run.poses.T_world_segment[s].translation.z() += static_cast<double>(s * s);
   const auto result = corrected(run.trajectory, run.ranges, run.poses, true);
@@ -72,7 +72,7 @@ TEST(Correction, TakesEachSegmentsOwnPoseAtItsMiddle) {
 }
 
 TEST(Correction, BlendsByFramesWhereNothingWasTravelled) {
-  Run run;
+  Drive run;
   for (auto& pose : run.trajectory.T_world_frame) pose = Pose();
   run.ranges = ranges_from(run.trajectory, {0, 10, 20, 30});
   run.poses = poses_of(run.ranges);
@@ -82,14 +82,14 @@ TEST(Correction, BlendsByFramesWhereNothingWasTravelled) {
 }
 
 TEST(Correction, TakesASingleSegment) {
-  Run run;
+  Drive run;
   run.ranges = ranges_from(run.trajectory, {0});
   run.poses = poses_of(run.ranges);
   EXPECT_EQ(corrected(run.trajectory, run.ranges, run.poses, true).size(), 40u);
 }
 
 TEST(Correction, RefusesPosesAndRangesThatDoNotFit) {
-  Run run;
+  Drive run;
   auto fewer = run.poses;
   fewer.T_world_segment.pop_back();
   EXPECT_THROW(corrected(run.trajectory, run.ranges, fewer, true), Error);
