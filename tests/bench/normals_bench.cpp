@@ -1,7 +1,5 @@
-/// Normals from the 30 nearest points, beside PCL's NormalEstimationOMP, one thread; both build
+/// Normals from the 30 nearest points, beside PCL's NormalEstimationOMP on one thread; both build
 /// their tree.
-
-#include <benchmark/benchmark.h>
 
 #include "../../plugins/estimate/normals/normals.hpp"
 #include "plumb/plugin/testing.hpp"
@@ -13,40 +11,26 @@
 namespace plumb::bench {
 namespace {
 
-const Cloud& scene() {
-  static const Cloud cloud = street_segment(0);
-  return cloud;
-}
-
-void say(benchmark::State& state) {
-  state.SetLabel(scene_name());
-  state.counters["points"] = static_cast<double>(scene().size());
-  state.counters["time/point"] = benchmark::Counter(
-      static_cast<double>(scene().size()),
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
-void Normals_ours(benchmark::State& state) {
-  Cloud cloud = scene();
+void ours(benchmark::State& state) {
+  Cloud cloud = thinned_segment(0, 0.3);
+  const auto origin = [](std::size_t) { return Eigen::Vector3f(0, 0, 0); };
   for (auto _ : state) {
     TestContext one_thread;
-    const SearchTree tree(cloud);
-    estimate_normals(
-        cloud, tree, {{}, 30}, [](std::size_t) { return Eigen::Vector3f(0, 0, 0); }, one_thread);
+    estimate_normals(cloud, SearchTree(cloud), {{}, 30}, origin, one_thread);
     benchmark::DoNotOptimize(cloud.nx.data());
   }
-  say(state);
+  per(state, "point", static_cast<double>(cloud.size()));
 }
-BENCHMARK(Normals_ours)->Unit(benchmark::kMillisecond);
+BENCHMARK(ours)->Name("normals/ours")->Unit(benchmark::kMillisecond);
 
 #ifdef PLUMB_HAS_PCL
-void Normals_pcl(benchmark::State& state) {
-  const Cloud& c = scene();
-  const twins::PclCloud twin(c.x, c.y, c.z, {}, {}, {});
+void pcl(benchmark::State& state) {
+  const Cloud& cloud = thinned_segment(0, 0.3);
+  const twins::PclCloud twin(cloud.x, cloud.y, cloud.z, {}, {}, {});
   for (auto _ : state) benchmark::DoNotOptimize(twin.normals(30, 1));
-  say(state);
+  per(state, "point", static_cast<double>(cloud.size()));
 }
-BENCHMARK(Normals_pcl)->Unit(benchmark::kMillisecond);
+BENCHMARK(pcl)->Name("normals/PCL")->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

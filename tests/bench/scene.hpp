@@ -1,22 +1,38 @@
 #pragma once
-/// What the benchmarks run on: segments of a street, as a pipeline for cars makes them.
+/// What the benchmarks run on: a street of the simulator, cut into segments as a pipeline for cars
+/// does.
 
-#include <filesystem>
-#include <string>
+#include <benchmark/benchmark.h>
 
 #include "plumb/data/cloud.hpp"
+#include "plumb/geometry/pose.hpp"
 
 namespace plumb::bench {
 
-/// Points of a segment of about 17 m of path with a 64-line laser, thinned to `leaf` [m], without
-/// normals; `which` is 0, 1, ..., neighbours overlap. From five frames of the real sequence
-/// `kitti_street` where that exists, else from a street made of planes and boxes.
-Cloud street_segment(unsigned which, double leaf = 0.4);
+/// To be called before anything else: an eighth of the columns, so that all benchmarks run in
+/// seconds. Their times then say nothing.
+void make_scene_small();
+
+/// Segment 0 or 1: five scans of 64 x 1024 rays, 3.4 m apart, merged in the coordinates of the
+/// middle one, as the sensor gave them. The two follow each other and overlap.
+const Cloud& merged_segment(std::size_t which);
+
+/// The same, thinned to one point per cell of edge `leaf` [m].
+const Cloud& thinned_segment(std::size_t which, double leaf);
 
 /// The same with normals (30 nearest within 1 m, turned to the segment's origin).
-Cloud street_segment_with_normals(unsigned which, double leaf = 0.4);
+const Cloud& segment_with_normals(std::size_t which, double leaf = 0.3);
 
-/// "kitti_street" or "made street": what street_segment gives here.
-std::string scene_name();
+/// T_world_segment of the two.
+Pose segment_pose(std::size_t which);
+
+/// States what is counted: `n` things called `what` a round. The counter `each` is the time of one
+/// [s].
+inline void per(benchmark::State& state, const char* what, double n) {
+  state.SetLabel(what);
+  state.counters["n"] = n;
+  state.counters["each"] = benchmark::Counter(
+      n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
 
 }  // namespace plumb::bench

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Prints what plumb_bench measured as the table of plugins/README.md: a row per kernel, its time beside its twins'.
+
+  plumb_bench --benchmark_repetitions=3 --benchmark_out=bench.json --benchmark_out_format=json
+  python3 tests/bench/table.py bench.json
+"""
+import collections
+import json
+import statistics
+import sys
+
+
+def told(seconds):
+    for unit, size in (("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)):
+        if seconds >= 0.9995 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-12:.3g} ps"
+
+
+def main(file):
+    # kernel and argument -> who -> times of one point or pair [s], medians over the repetitions
+    rows = collections.defaultdict(lambda: collections.defaultdict(list))
+    what = {}
+    with open(file) as text:
+        for run in json.load(text)["benchmarks"]:
+            if run["run_type"] != "iteration":
+                continue
+            kernel, who, *argument = run["run_name"].split("/")
+            key = (kernel, *argument)
+            rows[key][who].append(run["each"])
+            what[key] = run["label"]
+    print("| kernel | per | ours | twin | its time | ratio |\n|---|---|---|---|---|---|")
+    for key, times in sorted(rows.items(), key=lambda row: list(what).index(row[0])):
+        (ours, *twins) = [(who, statistics.median(values)) for who, values in times.items()]
+        name = ", ".join(key) + ("" if ours[0] == "ours" else f": {ours[0]}")
+        for who, time in twins or [("", None)]:
+            its = f"{told(time)} | {time / ours[1]:.3g}" if time else " | "
+            print(f"| {name} | {what[key]} | {told(ours[1])} | {who} | {its} |")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
