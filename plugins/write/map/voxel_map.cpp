@@ -44,6 +44,10 @@ void VoxelTable::add(const Voxel& voxel) {
   merge(slots_[at], voxel);
 }
 
+void VoxelTable::prefetch(std::uint64_t key) const {
+  __builtin_prefetch(&slots_[slot_of(hash_of(key), slots_.size())], 1);
+}
+
 void VoxelTable::grow() {
   std::vector<Voxel> old(slots_.size() + slots_.size() / 2 + 8);
   old.swap(slots_);
@@ -102,8 +106,12 @@ VoxelMap::Cells VoxelMap::cells_of(const Cloud& cloud, const Pose& T_world_cloud
 }
 
 void VoxelMap::add(const Cells& cells, std::size_t shard) {
-  for (std::uint32_t k = cells.first[shard]; k < cells.first[shard + 1]; ++k)
+  constexpr std::uint32_t ahead = 12;  // cells whose slots are fetched early: the table is larger than the cache
+  const std::uint32_t end = cells.first[shard + 1];
+  for (std::uint32_t k = cells.first[shard]; k < end; ++k) {
+    if (k + ahead < end) tables_[shard].prefetch(cells.voxels[k + ahead].key);
     tables_[shard].add(cells.voxels[k]);
+  }
 }
 
 std::size_t VoxelMap::size() const {

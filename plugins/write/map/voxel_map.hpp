@@ -26,6 +26,8 @@ class VoxelTable {
   explicit VoxelTable(std::size_t capacity = 64) : slots_(capacity) {}
   /// Adds the voxel's points to the cell that it names.
   void add(const Voxel& voxel);
+  /// Brings the place of a cell into the cache.
+  void prefetch(std::uint64_t key) const;
   std::size_t size() const { return used_; }
   const std::vector<Voxel>& slots() const { return slots_; }  ///< empty ones have key 0
 
