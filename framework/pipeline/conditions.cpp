@@ -130,7 +130,7 @@ class Conditions {
       return draft_.fault(metric.origin,
                           what_ + ": '" + step.text + "' gives " +
                               (fitting.empty() ? "no Metrics." : "several Metrics."),
-                          fitting.empty() ? "Name a step such as measure.match_rmse."
+                          fitting.empty() ? "Name a step that measures."
                                           : "Write " + step.text + ".OUTPUT.");
     choose(draft_, *fitting[0]);
     condition.step = fitting[0]->wire.step;

@@ -172,12 +172,12 @@ Json overlay_definition() {
         described({{"type", "array"}, {"items", {{"type", "string"}, {"pattern", path_pattern}}}},
                   "Steps to drop, by path.")},
        {"replace",
-        described(map_of(ref("item"), path_pattern), "Steps by path, such as coarse.kept.")},
+        described(map_of(ref("item"), path_pattern), "Steps by path, as in GROUP.STEP.")},
        {"add", described(map_of(ref("item"), path_pattern), "New steps by path.")},
        {"set",
         described(
             map_of(scalar_or_row(), path_pattern),
-            "Parameters, rows (coarse.gate) and parameters of steps (coarse.kept.clusters).")}},
+            "Parameters, rows (GROUP.ROW) and parameters of steps (GROUP.STEP.PARAMETER).")}},
       {"plumb", "extends"});
 }
 

@@ -51,7 +51,7 @@ def test_agrees_with_a_second_judge_where_nothing_is_seen_twice(folder):
 
 
 def test_agrees_with_a_second_judge_on_a_path_under_ten_metres(folder):
-    short = copy_of("street", folder, frames=8)
+    short = copy_of("street", folder, frames=4)
     result = score(short, half_straight(folder, short))
     same(result, judge(short, half_straight(folder, short)))
     assert result["after"]["rpe_m"] is None

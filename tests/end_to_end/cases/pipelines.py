@@ -20,10 +20,8 @@ def test_all_are_known_to_these_cases(folder):
 def test_all_check_clean(folder):
     for preset in (None, CAR, HANDHELD, MULRAN):
         options = ["--preset", preset] if preset else []
-        if preset == MULRAN:
-            options += ["--set", "trajectory=drive.csv"]
         plumb("check", CASCADE, *options, "--set", "input=anywhere").has("good")
-    for preset in (CAR, HANDHELD):
+    for preset in (CAR, HANDHELD, MULRAN):
         plumb("check", preset, "--set", "input=anywhere").has("good")
 
 
@@ -46,7 +44,7 @@ def numbers(stage):
     return {name: number["value"] for name, number in stage["numbers"].items()}
 
 
-def metrics_tell_what_happened(out, result=None):
+def metrics_tell_what_happened(out, result=None, falls=2):
     stages = stages_of(out)
     assert list(stages) == ["drift", "coarse", "fine", "match_rmse", "error"]
     for name in ("drift", "coarse", "fine"):
@@ -58,7 +56,7 @@ def metrics_tell_what_happened(out, result=None):
             assert edge["fate"] in ("kept", "down-weighted", "rejected", "no matches"), edge
     rmse = numbers(stages["match_rmse"])
     assert list(rmse) == ["before", "drift", "coarse", "fine"]
-    assert rmse["fine"] < rmse["before"] / 2, rmse
+    assert rmse["fine"] * falls < rmse["before"], rmse
     if result:
         error = numbers(stages["error"])
         assert abs(error["fine.ate"] - result["after"]["ate_rmse"]) < 1e-6, error
@@ -121,7 +119,8 @@ def test_a_preset_is_also_a_pipeline_by_itself(folder):
 def test_preset_handheld_solid_state_straightens_a_walk(folder):
     walk, out = sequence("walk"), folder / "out"
     cascade(walk, out, "--preset", HANDHELD, "--set", f"truth={walk / 'truth.tum'}")
-    metrics_tell_what_happened(out, straightens(walk, out, factor=3))
+    # The walk drifts by less than the pairs' cap, so its match RMSE starts near the noise: the ATE is what tells.
+    metrics_tell_what_happened(out, straightens(walk, out, factor=3), falls=1.2)
 
 
 def test_without_a_truth_the_error_is_left_out_and_the_same_comes_out(folder):
@@ -167,10 +166,12 @@ def mulran_like(folder):
 
 def test_preset_mulran_os1_64_straightens_a_drive_in_mulran_s_format(folder):
     drive, out = mulran_like(folder), folder / "out"
-    cascade(drive, out, "--preset", MULRAN, "--set", f"trajectory={drive / 'global_pose.csv'}", "--set", "ranges.frames=6",
+    cascade(drive, out, "--preset", MULRAN, "--set", f"sequence.trajectory={drive / 'global_pose.csv'}", "--set", "ranges.frames=6",
             "--set", f"truth={drive / 'truth.tum'}")
     metrics_tell_what_happened(out, straightens(drive, out, factor=5))
 
 
-def test_preset_mulran_os1_64_asks_for_the_trajectory(folder):
-    plumb("check", CASCADE, "--preset", MULRAN, "--set", "input=anywhere", code=1).has("'trajectory'")
+def test_preset_mulran_os1_64_takes_the_odometry_in_the_folder(folder):
+    drive, out = mulran_like(folder), folder / "out"
+    cascade(drive, out, "--preset", MULRAN, "--set", "ranges.frames=6")
+    straightens(drive, out, factor=5)
