@@ -145,7 +145,7 @@ def test_simulate_refuses_what_it_cannot_make(folder):
 
 def test_evaluate_prints_a_table_and_refuses_what_is_missing(folder):
     street = sequence("street")
-    plumb("evaluate", street, street / "truth.tum", "--clouds").has("before", "after", "60/60", "ATE", "ghosting")
+    plumb("evaluate", street, street / "truth.tum", "--clouds").has("before", "after", "90/90", "ATE", "ghosting")
     refused(plumb("evaluate", street, folder / "none.tum", code=WRONG_INPUT), "none.tum")
     refused(plumb("evaluate", folder, street / "truth.tum", code=WRONG_INPUT), "has no truth.tum", "--truth")
 

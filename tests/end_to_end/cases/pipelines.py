@@ -5,7 +5,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from judge import Trajectory, frames_of, points_of
-from plumb_test import CAR, CASCADE, PIPELINES, cascade, plumb, score, sequence
+from plumb_test import CAR, CASCADE, PIPELINES, STEP_FAILED, cascade, plumb, refused, score, sequence
 
 HANDHELD = PIPELINES / "presets/handheld_solid_state.yaml"
 MULRAN = PIPELINES / "presets/mulran_os1_64.yaml"
@@ -63,7 +63,7 @@ def metrics_tell_what_happened(out, result=None, falls=2):
         assert abs(error["before.ate"] - result["before"]["ate_rmse"]) < 1e-6, error
 
 
-def map_is_whole(sequence_folder, out, leaf=0.2):
+def map_is_whole(sequence_folder, out):
     """The map has a header that fits its bytes, and points all over the path."""
     header, data = (out / "map.ply").read_bytes().split(b"end_header\n", 1)
     lines = header.decode().splitlines()
@@ -164,14 +164,16 @@ def mulran_like(folder):
     return drive
 
 
-def test_preset_mulran_os1_64_straightens_a_drive_in_mulran_s_format(folder):
+def test_preset_mulran_os1_64_straightens_a_drive_with_poses_in_a_csv(folder):
     drive, out = mulran_like(folder), folder / "out"
     cascade(drive, out, "--preset", MULRAN, "--set", f"sequence.trajectory={drive / 'global_pose.csv'}", "--set", "ranges.frames=6",
             "--set", f"truth={drive / 'truth.tum'}")
     metrics_tell_what_happened(out, straightens(drive, out, factor=5))
 
 
-def test_preset_mulran_os1_64_takes_the_odometry_in_the_folder(folder):
+def test_preset_mulran_os1_64_takes_the_odometry_beside_the_scans(folder):
     drive, out = mulran_like(folder), folder / "out"
     cascade(drive, out, "--preset", MULRAN, "--set", "ranges.frames=6")
     straightens(drive, out, factor=5)
+    (drive / "odometry.tum").unlink()
+    refused(cascade(drive, folder / "none", "--preset", MULRAN, code=STEP_FAILED), "odometry.tum")

@@ -196,11 +196,11 @@ def test_an_unknown_parameter(folder):
 
 
 def test_an_unknown_unit(folder):
-    wrong_pipeline(folder, "gate: [4 m,", "gate: [4 mtr,", "mtr", "known: m, cm")
+    wrong_pipeline(folder, "gate: [4 m,", "gate: [4 mtr,", "mtr", "Known: m, cm")
 
 
 def test_an_unknown_name_behind_set(folder):
-    for setting, word in (("coarse.gaet=2m", "coarse.gate"), ("laef=1m", "leaf"), ("coarse.kept.clustres=3", "clustres"), ("leaf=1", "unit"),
+    for setting, word in (("coarse.gaet=2m", "Did you mean 'gate'?"), ("laef=1m", "Did you mean 'leaf'?"), ("coarse.kept.clustres=3", "clustres"), ("leaf=1", "unit"),
                           ("leaf", "=")):
         said = plumb("check", CASCADE, "--set", "input=x", "--set", setting, code=WRONG_INPUT)
         said.has("--set", word)

@@ -1,0 +1,156 @@
+"""A step is a folder: without it the project configures and builds, and a pipeline that names it is refused. A foreign module is too."""
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from plumb_test import BUILD, CASCADE, PLUMB, SOURCE, STEP_FAILED, WRONG_INPUT, nothing_left, plumb, sequence, skip, step_names
+
+
+def run(*command, **options):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, **options)
+    assert done.returncode == 0, f"$ {' '.join(map(str, command))}\n{(done.stdout + done.stderr)[-4000:]}"
+    return done.stdout
+
+
+def copy_of_source(to):
+    """The tree without tests and build: as deep in the file system as the original, so that ccache knows its compilations."""
+    root = to.joinpath(*(["deep"] * max(0, len(SOURCE.parts) - len(to.parts) - 1)), "source")
+    ignore = shutil.ignore_patterns("*_test.cpp")
+    for part in ("framework", "plugins", "tools", "pipelines"):
+        shutil.copytree(SOURCE / part, root / part, ignore=ignore)
+    shutil.copy(SOURCE / "CMakeLists.txt", root)
+    return root
+
+
+def configure(root, build):
+    run("cmake", "-S", root, "-B", build, "-G", "Ninja", "-DPLUMB_TESTS=OFF", "-DPLUMB_BENCHMARKS=OFF")
+
+
+def test_each_folder_can_be_left_out_of_the_configuration(folder):
+    if not shutil.which("ninja"):
+        skip("ninja is not on this machine")
+    root = copy_of_source(folder)
+    steps = sorted(f.parent.relative_to(root / "plugins") for f in (root / "plugins").glob("*/*/CMakeLists.txt"))
+    assert len(steps) >= 30
+    configure(root, folder / "build")
+    for step in steps:
+        shutil.move(root / "plugins" / step, folder / "away")
+        configure(root, folder / "build")
+        targets = (folder / "build/build.ninja").read_text()
+        gone = "step_" + "_".join(step.parts)
+        assert f"build {gone}:" not in targets and targets.count("build step_") == len(steps) - 1, step
+        shutil.move(folder / "away", root / "plugins" / step)
+
+
+def test_builds_without_one_folder_and_runs_what_is_left(folder):
+    """Quick only where ccache has the compilations of the tree itself."""
+    if not shutil.which("ninja") or not shutil.which("ccache"):
+        skip("ninja or ccache is not on this machine, and a whole build takes too long")
+    root = copy_of_source(folder)
+    left_out = "filter.statistical_outlier"
+    shutil.rmtree(root / "plugins" / left_out.replace(".", "/"))
+    configure(root, root / "build")
+    run("ninja", "-C", root / "build")
+    program = root / "build/bin/plumb"
+    names = {line.split()[0] for line in plumb("list", program=program).out.splitlines()}
+    assert names == set(step_names()) - {left_out}
+    plumb("doctor", program=program)
+    refuses_the_cascade(folder, left_out, program=program)
+    file = folder / "without.yaml"
+    file.write_text(f"plumb: 1\nname: without\nextends: {CASCADE}\nremove: [denoised]\nreplace:\n"
+                    "  voxels: {use: filter.voxel_grid, from: thinned, with: {leaf: $leaf}}\n")
+    plumb("run", file, "--set", f"input={sequence('straight')}", "--set", "ranges.frames=5", "-o", folder / "out", program=program)
+
+
+def refuses_the_cascade(folder, step, **options):
+    line = next(n for n, text in enumerate(CASCADE.read_text().splitlines(), 1) if f"use: {step}" in text)
+    said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "-o", folder / "refused", code=WRONG_INPUT, **options)
+    said.has(f"tang2024.yaml:{line}:", f"no module offers '{step}'", "plumb list")
+    nothing_left(folder / "refused")
+
+
+def installation(folder):
+    """The command and its modules, linked into a folder where single modules can be changed. Returns (program, modules, environment)."""
+    modules = folder / "lib/plumb"
+    modules.mkdir(parents=True)
+    (folder / "bin").mkdir()
+    shutil.copy(PLUMB, folder / "bin/plumb")
+    library = next((BUILD / "lib").glob("libplumb.so.*.*"))
+    shutil.copy(library, folder / "lib/libplumb.so.0")
+    for file in (BUILD / "lib/plumb").iterdir():
+        (modules / file.name).symlink_to(file)
+    return folder / "bin/plumb", modules, {"LD_LIBRARY_PATH": str(folder / "lib")}
+
+
+def test_a_pipeline_that_names_a_missing_module_is_refused(folder):
+    program, modules, environment = installation(folder)
+    plumb("check", CASCADE, "--set", "input=x", program=program, environment=environment).has("good")
+    (modules / "prune.kmeans.so").unlink()
+    refuses_the_cascade(folder, "prune.kmeans", program=program, environment=environment)
+    plumb("doctor", program=program, environment=environment)  # what is not there is no fault
+
+
+def foreign_module(folder, step, manifest_too):
+    """Gives `step` the ABI tag of another SDK: in its module, and in its manifest if asked to."""
+    program, modules, environment = installation(folder)
+    for kind in [".so", ".json"] if manifest_too else [".so"]:
+        file = modules / (step + kind)
+        data = file.read_bytes()
+        assert b"plumb-sdk 1," in data, "the tag has another text now; change the test"
+        file.unlink()
+        file.write_bytes(data.replace(b"plumb-sdk 1,", b"plumb-sdk 0,"))
+    return program, environment
+
+
+def test_a_module_of_another_abi_is_refused_by_its_manifest(folder):
+    program, environment = foreign_module(folder, "prune.kmeans", manifest_too=True)
+    refuses_the_cascade(folder, "prune.kmeans", program=program, environment=environment)
+    said = plumb("doctor", program=program, environment=environment, code=WRONG_INPUT)
+    said.has("prune.kmeans.so", "was built for another Plumb", "plumb-sdk 0,", "plumb-sdk 1,", "build the module again")
+
+
+def test_a_module_of_another_abi_behind_a_manifest_of_ours_is_refused_when_it_is_loaded(folder):
+    program, environment = foreign_module(folder, "prune.kmeans", manifest_too=False)
+    said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "--quiet", "-o", folder / "refused", program=program,
+                 environment=environment, code=STEP_FAILED)
+    said.has("prune.kmeans.so", "was built for another Plumb", "plumb-sdk 0,", "build the module again")
+    nothing_left(folder / "refused")
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("prune.kmeans.so", "another Plumb")
+
+
+def test_a_module_of_a_foreign_compiler_is_refused(folder):
+    """A library in C with our entry and another tag, as another SDK would build it."""
+    if not shutil.which("cc"):
+        skip("no C compiler on this machine")
+    source = folder / "old.c"
+    source.write_text('struct Module { unsigned magic, version; const char* tag; unsigned long count; void* steps; };\n'
+                      'static struct Module module = {0x504c554d, 1, "plumb-sdk 9, gcc 3", 0, 0};\n'
+                      'const struct Module* plumb_module(void) { return &module; }\n')
+    program, modules, environment = installation(folder)
+    kmeans = modules / "prune.kmeans.so"
+    kmeans.unlink()
+    run("cc", "-shared", "-fPIC", source, "-o", kmeans)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("plumb-sdk 9, gcc 3", "build the module again")
+
+
+def test_a_crashing_module_is_named_by_doctor(folder):
+    if not shutil.which("cc"):
+        skip("no C compiler on this machine")
+    (folder / "crash.c").write_text("__attribute__((constructor)) static void crash(void) { *(volatile int*)0 = 1; }\n")
+    program, modules, environment = installation(folder)
+    kmeans = modules / "prune.kmeans.so"
+    kmeans.unlink()
+    run("cc", "-shared", "-fPIC", folder / "crash.c", "-o", kmeans)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("prune.kmeans.so", "crashes when it is loaded")
+
+
+def test_the_installed_command_finds_its_modules_beside_it(folder):
+    if not (BUILD / "cmake_install.cmake").exists():
+        skip("this build cannot be installed from here")
+    run("cmake", "--install", BUILD, "--prefix", folder / "usr")
+    program = folder / "usr/bin/plumb"
+    assert {line.split()[0] for line in plumb("list", program=program).out.splitlines()} == set(step_names())
+    plumb("doctor", program=program).has(str((folder / "usr/lib/plumb").resolve()))
+    os.rename(folder / "usr", folder / "moved")
+    plumb("doctor", program=Path(folder / "moved/bin/plumb")).has(str((folder / "moved/lib/plumb").resolve()))
