@@ -24,17 +24,22 @@ class Stopwatch {
 
 class ItemContext final : public Context {
  public:
-  ItemContext(Bookkeeping& books, const std::string& path, std::uint64_t seed)
-      : books_(books), path_(path), seed_(seed) {}
-  void count(std::string_view what, std::uint64_t n) override { books_.count(path_, what, n); }
+  /// With `counts` false what the step counts is not heard: the item was made before, and its counts are booked.
+  /// `seed` is asked when the step does.
+  ItemContext(Bookkeeping& books, const std::string& path, std::function<std::uint64_t()> seed, bool counts = true)
+      : books_(books), path_(path), seed_(std::move(seed)), counts_(counts) {}
+  void count(std::string_view what, std::uint64_t n) override {
+    if (counts_) books_.count(path_, what, n);
+  }
   void warn(const std::string& sentence) override { books_.warn(path_, sentence); }
-  std::uint64_t seed() const override { return seed_; }
+  std::uint64_t seed() const override { return seed_(); }
   void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override;
 
  private:
   Bookkeeping& books_;
   const std::string& path_;
-  std::uint64_t seed_;
+  std::function<std::uint64_t()> seed_;
+  bool counts_;
 };
 
 }  // namespace plumb

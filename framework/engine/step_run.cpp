@@ -68,7 +68,7 @@ void StepRun::start_whole() {
     for (AnyValue& value : *found) whole_.emplace_back().one = std::move(value);
     state_.books.add_item(plan_.path, true);
   } else {
-    whole_ = call(0, key.low);
+    whole_ = call(0);
     state_.books.add_item(plan_.path, false);
     std::vector<AnyValue> values;
     for (const PortOutput& output : whole_) values.push_back(output.one);
@@ -80,6 +80,7 @@ void StepRun::start_whole() {
     if (outputs[o].emission == Emission::one) whole_keys_[o] = {type.hash(whole_[o].one.value.get())};
     for (const AnyValue& value : whole_[o].many) whole_keys_[o].push_back(type.hash(value.value.get()));
     for (const Hash128& lazy : whole_[o].lazy.keys) whole_keys_[o].push_back(joined_key(base_key_, lazy));
+    asked_.push_back(std::make_unique<std::atomic<bool>[]>(whole_[o].lazy.keys.size()));
   }
   inputs_.clear();  // lets go of what came before
 }
@@ -87,7 +88,10 @@ void StepRun::start_whole() {
 void StepRun::start() {
   if (!itemwise()) return start_whole();
   find_items();
-  if (keeping_ == Keeping::passing) return;
+  if (keeping_ == Keeping::passing) {
+    asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
+    return;
+  }
   state_.books.observer().step_begins(plan_.path, items_);
   kept_.resize(items_);
   kept_keys_.resize(items_);
@@ -105,6 +109,9 @@ std::size_t StepRun::count(int output) const {
   return whole_keys_[output].size();
 }
 
+/// What passes through is made for each that asks, but its counts are booked once.
+bool StepRun::first_asked(int output, std::size_t k) { return !asked_[output][k].exchange(true); }
+
 std::vector<AnyValue> StepRun::make(std::size_t k, const Hash128& key) {
   const bool memo = keeping_ == Keeping::remembered;
   if (memo)
@@ -113,7 +120,7 @@ std::vector<AnyValue> StepRun::make(std::size_t k, const Hash128& key) {
       return std::move(*found);
     }
   std::vector<AnyValue> values;
-  for (PortOutput& output : call(k, key.low)) values.push_back(std::move(output.one));
+  for (PortOutput& output : call(k)) values.push_back(std::move(output.one));
   state_.books.add_item(plan_.path, false);
   if (memo) state_.memo.store(key, values);
   return values;
@@ -132,7 +139,7 @@ AnyValue StepRun::value(int output, std::size_t k) {
     case Emission::lazy: break;
   }
   const Stopwatch watch(state_.books, plan_.path);
-  ItemContext context(state_.books, plan_.path, whole_keys_[output][k].low);
+  ItemContext context(state_.books, plan_.path, [&] { return whole_keys_[output][k].low; }, first_asked(output, k));
   try {
     return made.lazy.open(k, context);
   } catch (const std::exception& e) {
@@ -241,7 +248,7 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
 }
 
 void StepRun::run_fold(std::vector<PortOutput>& outputs) {
-  ItemContext context(state_.books, plan_.path, base_key_.low);
+  ItemContext context(state_.books, plan_.path, [this] { return base_key_.low; });
   const auto state = step_.begin({});
   std::size_t frames = 0;
   for (std::size_t p = 0; p < inputs_.size(); ++p)
@@ -261,14 +268,34 @@ std::string StepRun::item_name(std::size_t k) const {
   }
 }
 
-std::vector<PortOutput> StepRun::call(std::size_t k, std::uint64_t seed) {
+/// From what the call sees, by content: a copied file or another folder gives the same numbers. Collections are not looked at.
+std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
+  Hasher hasher;
+  hasher.bytes(&base_key_, sizeof base_key_);
+  const auto add = [&](const AnyValue& value) {
+    if (!value) return;
+    const Hash128 content = value.type->hash(value.value.get());
+    hasher.bytes(&content, sizeof content);
+  };
+  for (const PortInput& port : inputs) {
+    add(port.one);
+    add(port.other);
+    for (const auto& [label, value] : port.several) add(value);
+    const Hash128 rest = joined_key(content_hash(port.T_i_j), content_hash(port.edge));
+    hasher.bytes(&rest, sizeof rest);
+  }
+  return hasher.hash().low;
+}
+
+std::vector<PortOutput> StepRun::call(std::size_t k) {
   std::vector<PortOutput> outputs(plan_.description->outputs.size());
   if (plan_.description->kind == StepKind::fold) {
     run_fold(outputs);
     return outputs;
   }
   const auto inputs = gather(k);  // outside the try: what an earlier step says of itself needs no second name
-  ItemContext context(state_.books, plan_.path, seed);
+  const bool passing = itemwise() && keeping_ == Keeping::passing;
+  ItemContext context(state_.books, plan_.path, [&] { return seed_of(inputs); }, !passing || first_asked(0, k));
   try {
     step_.run(params_.get(), inputs, outputs, context);
   } catch (const std::bad_alloc&) {

@@ -1,6 +1,7 @@
 #pragma once
 /// One step of a plan in one pass, with its inputs joined: what it is asked for, it makes, remembers or passes through.
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -65,8 +66,10 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::size_t first_frame(std::size_t k) const;
   std::size_t end_frame(std::size_t k) const;
   std::string item_name(std::size_t k) const;
-  std::vector<PortOutput> call(std::size_t k, std::uint64_t seed);
+  std::vector<PortOutput> call(std::size_t k);
+  std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
   void run_fold(std::vector<PortOutput>& outputs);
+  bool first_asked(int output, std::size_t k);
 
   const PlannedStep& plan_;
   const Step& step_;
@@ -82,6 +85,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::vector<Hash128> kept_keys_;           ///< by item
   std::vector<PortOutput> whole_;            ///< of a step on whole collections, by output
   std::vector<std::vector<Hash128>> whole_keys_;
+  std::vector<std::unique_ptr<std::atomic<bool>[]>> asked_;  ///< of what is made anew whenever asked for: by output, then item
 };
 
 }  // namespace plumb
