@@ -168,7 +168,8 @@ def test_preset_mulran_os1_64_straightens_a_drive_with_poses_in_a_csv(folder):
     drive, out = mulran_like(folder), folder / "out"
     cascade(drive, out, "--preset", MULRAN, "--set", f"sequence.trajectory={drive / 'global_pose.csv'}", "--set", "ranges.frames=6",
             "--set", f"truth={drive / 'truth.tum'}")
-    metrics_tell_what_happened(out, straightens(drive, out, factor=5))
+    straightens(drive, out, factor=5)
+    metrics_tell_what_happened(out)  # 'before' is the interpolated CSV, not the odometry that the judge reads
 
 
 def test_preset_mulran_os1_64_takes_the_odometry_beside_the_scans(folder):
