@@ -1,6 +1,8 @@
 /// FPFH with the normals given, beside PCL's FPFHEstimationOMP at equal radius and key points, one
 /// thread. Per point of the cloud: each one's histogram is made once, key point or not. The
-/// argument is the radius in decimetres.
+/// arguments are the radius and the spacing of key points in decimetres; 0: every point is one.
+
+#include <numeric>
 
 #include "../../plugins/describe/fpfh/fpfh.hpp"
 #include "../../plugins/describe/fpfh/key_points.hpp"
@@ -17,6 +19,13 @@ double radius_of(const benchmark::State& state) {
   return 0.1 * static_cast<double>(state.range(0));
 }
 
+std::vector<std::uint32_t> keys_of(const benchmark::State& state, const Cloud& cloud) {
+  if (state.range(1) > 0) return key_points(cloud, 0.1 * static_cast<double>(state.range(1)));
+  std::vector<std::uint32_t> all(cloud.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 void say(benchmark::State& state, const Cloud& cloud, const std::vector<std::uint32_t>& keys) {
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["key points"] = static_cast<double>(keys.size());
@@ -24,7 +33,7 @@ void say(benchmark::State& state, const Cloud& cloud, const std::vector<std::uin
 
 void ours(benchmark::State& state) {
   const Cloud& cloud = segment_with_normals(0);
-  const auto keys = key_points(cloud, 0.8);
+  const auto keys = keys_of(state, cloud);
   FpfhOptions options;
   options.radius = radius_of(state);
   for (auto _ : state) {
@@ -33,17 +42,29 @@ void ours(benchmark::State& state) {
   }
   say(state, cloud, keys);
 }
-BENCHMARK(ours)->Name("fpfh/ours")->Arg(15)->Arg(25)->Unit(benchmark::kMillisecond);
+BENCHMARK(ours)
+    ->Name("fpfh/ours")
+    ->ArgNames({"radius [dm]", "spacing [dm]"})
+    ->Args({15, 8})
+    ->Args({25, 8})
+    ->Args({25, 0})
+    ->Unit(benchmark::kMillisecond);
 
 #ifdef PLUMB_HAS_PCL
 void pcl(benchmark::State& state) {
   const Cloud& cloud = segment_with_normals(0);
-  const auto keys = key_points(cloud, 0.8);
+  const auto keys = keys_of(state, cloud);
   const twins::PclCloud twin(cloud.x, cloud.y, cloud.z, cloud.nx, cloud.ny, cloud.nz);
   for (auto _ : state) benchmark::DoNotOptimize(twin.fpfh(keys, radius_of(state), 1));
   say(state, cloud, keys);
 }
-BENCHMARK(pcl)->Name("fpfh/PCL")->Arg(15)->Arg(25)->Unit(benchmark::kMillisecond);
+BENCHMARK(pcl)
+    ->Name("fpfh/PCL")
+    ->ArgNames({"radius [dm]", "spacing [dm]"})
+    ->Args({15, 8})
+    ->Args({25, 8})
+    ->Args({25, 0})
+    ->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

@@ -42,14 +42,24 @@ void ours(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(mutual_nearest(ends.a, ends.b, bins));
   ends.say(state);
 }
-BENCHMARK(ours)->Name("mutual/ours")->Arg(8)->Arg(12)->Unit(benchmark::kMillisecond);
+BENCHMARK(ours)
+    ->Name("mutual/ours")
+    ->ArgName("spacing [dm]")
+    ->Arg(8)
+    ->Arg(12)
+    ->Unit(benchmark::kMillisecond);
 
 void all_pairs(benchmark::State& state) {
   const Ends& ends = Ends::of(state);
   for (auto _ : state) benchmark::DoNotOptimize(mutual_nearest_plainly(ends.a, ends.b, bins));
   ends.say(state);
 }
-BENCHMARK(all_pairs)->Name("mutual/all pairs")->Arg(8)->Arg(12)->Unit(benchmark::kMillisecond);
+BENCHMARK(all_pairs)
+    ->Name("mutual/all pairs")
+    ->ArgName("spacing [dm]")
+    ->Arg(8)
+    ->Arg(12)
+    ->Unit(benchmark::kMillisecond);
 
 #ifdef PLUMB_HAS_FLANN
 std::vector<std::vector<int>> nearest(const std::vector<float>& of,
@@ -74,7 +84,12 @@ void exact_tree(benchmark::State& state) {
   }
   ends.say(state);
 }
-BENCHMARK(exact_tree)->Name("mutual/FLANN")->Arg(8)->Arg(12)->Unit(benchmark::kMillisecond);
+BENCHMARK(exact_tree)
+    ->Name("mutual/FLANN")
+    ->ArgName("spacing [dm]")
+    ->Arg(8)
+    ->Arg(12)
+    ->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

@@ -54,6 +54,7 @@ void by_kmeans(benchmark::State& state) {
 }
 BENCHMARK(by_kmeans)
     ->Name("prune/K-means")
+    ->ArgName("right [%]")
     ->Arg(40)
     ->Arg(15)
     ->Arg(5)
@@ -65,7 +66,13 @@ void by_ransac(benchmark::State& state) {
   for (auto _ : state) kept = ransac(matches, {}, Random(1)).inliers;
   say(state, kept);
 }
-BENCHMARK(by_ransac)->Name("prune/RANSAC")->Arg(40)->Arg(15)->Arg(5)->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_ransac)
+    ->Name("prune/RANSAC")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace plumb::bench

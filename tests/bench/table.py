@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what plumb_bench measured as the table of plugins/README.md: a row per kernel, its time beside its twins'.
 
-  plumb_bench --benchmark_repetitions=3 --benchmark_out=bench.json --benchmark_out_format=json
+  plumb_bench --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true --benchmark_out=bench.json --benchmark_out_format=json
   python3 tests/bench/table.py bench.json
 """
 import collections
@@ -18,19 +18,20 @@ def told(seconds):
 
 
 def main(file):
-    # kernel and argument -> who -> times of one point or pair [s], medians over the repetitions
+    # kernel and argument -> who -> times of one point or pair [s], one a repetition
     rows = collections.defaultdict(lambda: collections.defaultdict(list))
     what = {}
     with open(file) as text:
-        for run in json.load(text)["benchmarks"]:
-            if run["run_type"] != "iteration":
-                continue
-            kernel, who, *argument = run["run_name"].split("/")
-            key = (kernel, *argument)
-            rows[key][who].append(run["each"])
-            what[key] = run["label"]
+        runs = [run for run in json.load(text)["benchmarks"] if run["run_type"] == "iteration"]
+    # In the order of announcing: ours before its twins, but libraries that were linked last come first.
+    for run in sorted(runs, key=lambda run: run["family_index"]):
+        kernel, who, *argument = run["run_name"].split("/")
+        key = (kernel, *(part.replace(":", " ") for part in argument))
+        rows[key][who].append(run["each"])
+        what[key] = run["label"]
     print("| kernel | per | ours | twin | its time | ratio |\n|---|---|---|---|---|---|")
-    for key, times in sorted(rows.items(), key=lambda row: list(what).index(row[0])):
+    kernels = list(dict.fromkeys(key[0] for key in rows))[::-1]
+    for key, times in sorted(rows.items(), key=lambda row: kernels.index(row[0][0])):
         (ours, *twins) = [(who, statistics.median(values)) for who, values in times.items()]
         name = ", ".join(key) + ("" if ours[0] == "ours" else f": {ours[0]}")
         for who, time in twins or [("", None)]:

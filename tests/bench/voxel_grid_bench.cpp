@@ -18,7 +18,12 @@ void ours(benchmark::State& state) {
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["left"] = static_cast<double>(left);
 }
-BENCHMARK(ours)->Name("voxel_grid/ours")->Arg(10)->Arg(30)->Unit(benchmark::kMillisecond);
+BENCHMARK(ours)
+    ->Name("voxel_grid/ours")
+    ->ArgName("leaf [cm]")
+    ->Arg(10)
+    ->Arg(30)
+    ->Unit(benchmark::kMillisecond);
 
 #ifdef PLUMB_HAS_PCL
 void pcl(benchmark::State& state) {
@@ -29,7 +34,12 @@ void pcl(benchmark::State& state) {
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["left"] = static_cast<double>(left);
 }
-BENCHMARK(pcl)->Name("voxel_grid/PCL")->Arg(10)->Arg(30)->Unit(benchmark::kMillisecond);
+BENCHMARK(pcl)
+    ->Name("voxel_grid/PCL")
+    ->ArgName("leaf [cm]")
+    ->Arg(10)
+    ->Arg(30)
+    ->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace
