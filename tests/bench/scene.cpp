@@ -21,7 +21,7 @@ const simulate::Stage& stage() {
     scene.path = "out_and_back";
     scene.frames = 40;
     scene.length = 3.4 * 39;
-    if (small) scene.columns = 128;
+    if (small) scene.columns = 48;
     return simulate::set_up(scene);
   }();
   return made;

@@ -9,7 +9,7 @@
 
 namespace plumb::bench {
 
-/// To be called before anything else: an eighth of the columns, so that all benchmarks run in
+/// To be called before anything else: a twentieth of the columns, so that all benchmarks run in
 /// seconds. Their times then say nothing.
 void make_scene_small();
 
