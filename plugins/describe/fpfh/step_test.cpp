@@ -1,0 +1,55 @@
+#include "plumb/plugin/step_testing.hpp"
+#include "scene_for_test.hpp"
+
+namespace plumb {
+namespace {
+
+Segment segment_of(Cloud cloud) {
+  std::vector<std::uint16_t> frames(cloud.size(), 0);
+  return Segment().with(std::move(cloud), std::move(frames));
+}
+
+TEST(DescribeFpfhStep, GivesKeyPointsWithHistogramsNormalsAndBorderMarks) {
+  TestContext context;
+  Cloud cloud = street_corner(4000, 1);
+  cloud.add({100, 100, 100});
+  cloud.nx.push_back(0), cloud.ny.push_back(0), cloud.nz.push_back(1);
+  const auto features = StepRun(*plumb_module())
+                            .with("segment", segment_of(cloud))
+                            .set("radius", 1.5)
+                            .run<Features>("features", context);
+  EXPECT_EQ(features.dimension, 33u);
+  EXPECT_GT(features.size(), 200u);
+  EXPECT_LT(features.size(), 1000u);
+  EXPECT_EQ(context.counts["key points with too few neighbours left out"], 1u);
+  // The ground ends at 12 m on two sides.
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const bool on_the_end =
+        std::abs(features.points[k].z()) < 0.1f && features.points[k].x() > 11.8f;
+    if (on_the_end) {
+      EXPECT_EQ(features.at_border[k], 1);
+    }
+  }
+}
+
+TEST(DescribeFpfhStep, RefusesASegmentWithoutNormalsAndNamesTheCure) {
+  Cloud cloud;
+  for (int k = 0; k < 10; ++k) cloud.add({static_cast<float>(k), 0, 0});
+  TestContext context;
+  try {
+    StepRun(*plumb_module()).with("segment", segment_of(cloud)).run<Features>("features", context);
+    FAIL() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("estimate.normals"), std::string::npos);
+  }
+}
+
+TEST(DescribeFpfhStep, GivesNoFeaturesForAnEmptySegment) {
+  TestContext context;
+  const auto features =
+      StepRun(*plumb_module()).with("segment", segment_of({})).run<Features>("features", context);
+  EXPECT_EQ(features.size(), 0u);
+}
+
+}  // namespace
+}  // namespace plumb
