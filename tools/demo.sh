@@ -11,7 +11,7 @@ mkdir -p "$folder"
 
 echo
 echo "1. A sequence: 200 scans of 32 x 1024 rays round a block of streets, and an odometry that drifts by metres"
-"$plumb" simulate city_loop --frames 200 --lines 32 --drift 4 -o "$folder/street"
+"$plumb" simulate city_loop --frames 200 --length 400m --lines 32 --drift 8 -o "$folder/street"
 
 echo
 echo "2. The cascade of Tang et al. 2024"

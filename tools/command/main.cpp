@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
       "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
       "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
-      "Exit: 0 done; 1 a pipeline, sequence or file is wrong; 2 the command line is wrong; 3 a step failed while running.");
+      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused its input or failed while running.");
   app.require_subcommand(1);
   app.add_option("--plugin-path", plumb::command::plugin_path, "A further folder with modules (also PLUMB_PLUGIN_PATH)");
   app.set_version_flag("--version", PLUMB_VERSION);

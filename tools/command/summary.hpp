@@ -12,4 +12,7 @@ namespace plumb::command {
 void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
                    bool times);
 
+/// Only what is weak, as the solvers and measures say it.
+void print_weak(std::ostream& out, const RunResult& result);
+
 }  // namespace plumb::command

@@ -40,6 +40,10 @@ struct OverlapEdges : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
+    if (count < 2)
+      throw Error("there is " + std::to_string(count) +
+                  " segment, so there is nothing to register: cut shorter segments (segment.by_count: frames, "
+                  "segment.by_distance: length)");
     if (in.poses->size() != count)
       throw Error("there are " + std::to_string(count) + " segments and " +
                   std::to_string(in.poses->size()) + " poses: wire poses of the same segments");

@@ -1,5 +1,7 @@
 #include "pose_graph.hpp"
 
+#include <algorithm>
+
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -196,7 +198,7 @@ class Graph {
     ceres::Solve(solver, problem_.get(), &summary);
     if (summary.termination_type == ceres::FAILURE)
       throw Error("the graph could not be solved: " + summary.message);
-    iterations_used_ += static_cast<int>(summary.iterations.size()) - 1;
+    iterations_used_ += std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // none where nothing can move
   }
 
   /// [m] the largest move of a pose, its rotation taken at 10 m.
