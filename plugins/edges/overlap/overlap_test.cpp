@@ -188,14 +188,19 @@ TEST(OverlapEdges, FollowAGivenThreshold) {
   EXPECT_GT(drive.run(context, 0.2).size(), drive.run(context, 0.5).size());
 }
 
-TEST(OverlapEdges, OfNoneAndOfOneAndOfEmptySegments) {
+TEST(OverlapEdges, RefuseFewerThanTwoSegmentsForThereIsNothingToRegister) {
+  for (std::size_t count : {0, 1}) {
+    TestContext context;
+    Poses poses;
+    poses.T_world_segment.resize(count);
+    StepRun step(*plumb_module());
+    step.each("segments", std::vector<Segment>(count)).with("poses", poses);
+    EXPECT_THROW(step.run<Edges>("edges", context), Error);
+  }
+}
+
+TEST(OverlapEdges, JoinEmptySegmentsThatFollowEachOtherAndSaySo) {
   TestContext context;
-  EXPECT_EQ(StepRun(*plumb_module())
-                .each("segments", std::vector<Segment>())
-                .with("poses", Poses())
-                .run<Edges>("edges", context)
-                .size(),
-            0u);
   Poses three;
   three.T_world_segment.resize(3);
   EXPECT_EQ(StepRun(*plumb_module())
