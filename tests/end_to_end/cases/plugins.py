@@ -14,12 +14,12 @@ def run(*command, **options):
 
 
 def copy_of_source(to):
-    """The tree without tests and build: as deep in the file system as the original, so that ccache knows its compilations."""
-    root = to.joinpath(*(["deep"] * max(0, len(SOURCE.parts) - len(to.parts) - 1)), "source")
+    """The tree without its tests: as deep in the file system as the original, so that ccache knows its compilations."""
+    root = to.joinpath(*["deep"] * (len(SOURCE.parts) - len(to.parts)))
     ignore = shutil.ignore_patterns("*_test.cpp")
     for part in ("framework", "plugins", "tools", "pipelines"):
         shutil.copytree(SOURCE / part, root / part, ignore=ignore)
-    shutil.copy(SOURCE / "CMakeLists.txt", root)
+    shutil.copy(SOURCE / "CMakeLists.txt", root / "CMakeLists.txt")
     return root
 
 
