@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "plumb/data/registration.hpp"
+
 namespace plumb {
 namespace {
 
@@ -51,6 +53,7 @@ PLUMB_TYPE(Descriptor, 1, segment)
 PLUMB_TYPE(Features, 1, segment)
 PLUMB_TYPE(Edges, 1, whole)
 PLUMB_TYPE(Matches, 1, edge)
+PLUMB_TYPE(Registration, 1, edge)
 PLUMB_TYPE(Relations, 1, whole)
 PLUMB_TYPE(Poses, 1, whole)
 PLUMB_TYPE(GridMap, 1, whole)
@@ -59,7 +62,7 @@ PLUMB_TYPE(Document, 1, whole)
 #undef PLUMB_TYPE
 
 const Type* find_type(std::string_view name) {
-  static const std::array<const Type*, 13> all = {
+  static const std::array<const Type*, 14> all = {
       &type_of<Trajectory>(), &type_of<Frame>(),   &type_of<Range>(),     &type_of<Segment>(), &type_of<Descriptor>(),
       &type_of<Features>(),   &type_of<Edges>(),   &type_of<Matches>(),   &type_of<Relations>(), &type_of<Poses>(),
       &type_of<GridMap>(),    &type_of<Metrics>(), &type_of<Document>()};
