@@ -130,6 +130,7 @@ void read_conditions(Draft& draft);  ///< `until`
 void find_order(Draft& draft);       ///< or the cycle
 void find_domains(Draft& draft);     ///< which items a step has
 void find_unused(Draft& draft);
+void find_missing_files(Draft& draft);  ///< paths that lead nowhere
 std::string resolved_text(const Draft& draft);
 
 }  // namespace plumb::pipeline

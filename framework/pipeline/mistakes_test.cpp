@@ -270,6 +270,36 @@ TEST(Mistakes, OfWritingWhatNothingUses) {
               HasSubstr("parameter 'path' is missing, a path."));
 }
 
+TEST(Mistakes, OfNamingFilesThatAreNotThere) {
+  const test::Folder folder;
+  folder.write("street/odometry.tum", "");
+  const std::string place = folder.path().string();
+  const auto told_for = [&](const std::string& value, bool in_file, bool needs_files = true) {
+    Overlay overlay;
+    overlay.needs_files = needs_files;
+    if (!in_file) overlay.sets = {"input=" + value};
+    const std::string given = in_file ? "{type: path, default: " + value : "{type: path";
+    try {
+      read_pipeline(folder.write("a.yaml", with("{type: path", given)), overlay, test::registry());
+    } catch (const PipelineError& error) {
+      EXPECT_EQ(error.diagnostics().size(), 1u);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told_for("street", true), "");
+  EXPECT_EQ(told_for(place + "/street", false), "");
+  EXPECT_EQ(told_for("nowhere", true, false), "");  // what only looks at the wires needs no data
+  const std::string in_file = told_for("stret", true);
+  EXPECT_THAT(in_file, HasSubstr("a.yaml:5:32: step 'sequence' (source.sequence): parameter 'path': "
+                                 "there is no file or folder '" + place + "/stret'."));
+  EXPECT_THAT(in_file, HasSubstr("Did you mean '" + place + "/street'?"));
+  const std::string in_set = told_for(place + "/far/away", false);
+  EXPECT_THAT(in_set, HasSubstr("--set input=" + place + "/far/away: step 'sequence'"));
+  EXPECT_THAT(in_set, HasSubstr("There is no folder '" + place + "/far' either."));
+  EXPECT_THAT(in_set, HasSubstr("Asked for at " + place + "/a.yaml:8:3."));
+}
+
 TEST(Mistakes, OfFilesThatAreNotThere) {
   try {
     read_pipeline("no/such.yaml", {}, test::registry());

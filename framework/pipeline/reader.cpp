@@ -22,6 +22,7 @@ Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
   read_wires(draft);
   read_conditions(draft);
   find_unused(draft);
+  if (overlay.needs_files) find_missing_files(draft);
   find_order(draft);
   find_domains(draft);
   diagnostics.raise();

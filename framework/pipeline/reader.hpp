@@ -20,6 +20,7 @@ struct Overlay {
       sets;           ///< "voxel=0.2m", a row "coarse.gate=2m,1m", "coarse.kept.clusters=4"
   bool open = false;  ///< parameters without a value are no mistake (graph, resolve): steps see an
                       ///< empty value
+  bool needs_files = false;  ///< a path that leads nowhere is a mistake (check, run)
 };
 
 /// Reads and checks a pipeline, or a preset that extends one. Throws PipelineError with every

@@ -12,7 +12,8 @@ void add_check(CLI::App& app) {
   auto* command = app.add_subcommand("check", "Checks a pipeline; nothing runs");
   auto options = std::make_shared<PipelineOptions>();
   options->add_to(*command);
-  command->footer("Prints every mistake with file:line:column, or the passes of each loop. Exit 1 when there is a mistake.");
+  options->overlay.needs_files = true;
+  command->footer("Prints every mistake with file:line:column, files that are not there too; or the passes of each loop. Exit 1 when there is a mistake.");
   command->callback([options] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);

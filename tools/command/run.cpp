@@ -44,6 +44,7 @@ void add_run(CLI::App& app) {
   auto* command = app.add_subcommand("run", "Checks and runs a pipeline and leaves its results in a folder");
   auto options = std::make_shared<Options>();
   options->pipeline.add_to(*command);
+  options->pipeline.overlay.needs_files = true;
   command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced")->required();
   command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");

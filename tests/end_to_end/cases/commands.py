@@ -7,7 +7,7 @@ from plumb_test import (BUILD, CAR, CASCADE, PLUMB, WRONG_COMMAND_LINE, WRONG_IN
                         step_names)
 
 COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate"]
-INPUT = ["--set", "input=anywhere"]  # checking reads no data
+INPUT = ["--set", "input=."]  # checking reads no data, but what it names must be there
 
 
 def test_help_names_every_command_and_the_exit_codes(folder):

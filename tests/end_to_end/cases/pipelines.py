@@ -20,9 +20,9 @@ def test_all_are_known_to_these_cases(folder):
 def test_all_check_clean(folder):
     for preset in (None, CAR, HANDHELD, MULRAN):
         options = ["--preset", preset] if preset else []
-        plumb("check", CASCADE, *options, "--set", "input=anywhere").has("good")
+        plumb("check", CASCADE, *options, "--set", "input=.").has("good")
     for preset in (CAR, HANDHELD, MULRAN):
-        plumb("check", preset, "--set", "input=anywhere").has("good")
+        plumb("check", preset, "--set", "input=.").has("good")
 
 
 def straightens(sequence_folder, out, factor):

@@ -71,7 +71,7 @@ def test_accepts_every_pipeline_and_preset(folder):
 
 
 def test_accepts_what_resolve_prints(folder):
-    text = plumb("resolve", CASCADE, "--set", "input=anywhere").out
+    text = plumb("resolve", CASCADE, "--set", "input=.").out
     errors = [f"{list(e.absolute_path)}: {e.message}" for e in judge().iter_errors(read(text))]
     assert not errors, errors
 
@@ -108,7 +108,7 @@ def test_and_the_command_refuse_the_same_mistakes(folder):
         assert good in text, f"'{good}' is no longer in {CASCADE.name}; change the test"
         file = folder / "wrong.yaml"
         file.write_text(text.replace(good, bad, 1))
-        said = plumb("check", file, "--set", "input=anywhere", code=WRONG_INPUT)
+        said = plumb("check", file, "--set", "input=.", code=WRONG_INPUT)
         assert re.search(r"wrong\.yaml:\d+:\d+: ", said.err), said
         if validator.is_valid(read(file.read_text())):
             missed.append(mistake)
@@ -132,5 +132,5 @@ def test_leaves_to_the_command_what_needs_names_followed(folder):
         assert good in text, f"'{good}' is no longer in {CASCADE.name}; change the test"
         file = folder / "wrong.yaml"
         file.write_text(text.replace(good, bad, 1))
-        said = plumb("check", file, "--set", "input=anywhere", code=WRONG_INPUT)
+        said = plumb("check", file, "--set", "input=.", code=WRONG_INPUT)
         assert re.search(r"wrong\.yaml:\d+:\d+: ", said.err), f"{mistake}: {said}"

@@ -35,7 +35,17 @@ def header_and_points(file):
 
 
 def test_a_folder_that_is_missing(folder):
-    refused(cascade(folder / "nowhere", folder / "out", code=STEP_FAILED), str(folder / "nowhere"), "there is no such folder", "give")
+    said = cascade(folder / "nowhere", folder / "out", code=WRONG_INPUT)
+    said.has(f"--set input={folder}/nowhere: step 'sequence'", f"there is no file or folder '{folder}/nowhere'", "Expected: folder with")
+    assert re.search(r"tang2024\.yaml:\d+:\d+", said.err), said
+    nothing_left(folder / "out")
+
+
+def test_a_truth_that_is_missing_is_noticed_before_anything_runs(folder):
+    street = sequence("street")
+    for command in (["check", CASCADE], ["run", CASCADE, "-o", folder / "out"]):
+        said = plumb(*command, "--set", f"input={street}", "--set", f"truth={street}/trut.tum", code=WRONG_INPUT)
+        said.has("step 'error' (measure.trajectory): parameter 'truth': there is no file", f"Did you mean '{street}/truth.tum'?")
     nothing_left(folder / "out")
 
 
@@ -153,7 +163,10 @@ def test_an_earlier_run_is_replaced_but_kept_when_the_next_one_fails(folder):
     cascade(sequence("street"), out, pipeline=pipeline)
     first = files_of(out)
     assert set(first) == {"trajectory.tum", "run.lock.yaml"}
-    cascade(folder / "nowhere", out, pipeline=pipeline, code=STEP_FAILED)
+    (folder / "empty").mkdir()
+    cascade(folder / "nowhere", out, pipeline=pipeline, code=WRONG_INPUT)
+    cascade(folder / "empty", out, pipeline=pipeline, code=STEP_FAILED)
+    (folder / "empty").rmdir()
     assert files_of(out) == first
     cascade(sequence("straight"), out, pipeline=pipeline)
     assert files_of(out)["trajectory.tum"] != first["trajectory.tum"]
@@ -202,7 +215,7 @@ def test_an_unknown_unit(folder):
 def test_an_unknown_name_behind_set(folder):
     for setting, word in (("coarse.gaet=2m", "Did you mean 'gate'?"), ("laef=1m", "Did you mean 'leaf'?"), ("coarse.kept.clustres=3", "clustres"), ("leaf=1", "unit"),
                           ("leaf", "=")):
-        said = plumb("check", CASCADE, "--set", "input=x", "--set", setting, code=WRONG_INPUT)
+        said = plumb("check", CASCADE, "--set", "input=.", "--set", setting, code=WRONG_INPUT)
         said.has("--set", word)
 
 
