@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "carmen_log.hpp"
+#include "decompress.hpp"
+#include "plumb/data/io/file_text.hpp"
+#include "plumb/plugin/module.hpp"
+#include "scan_cloud.hpp"
+
+namespace plumb {
+namespace {
+
+enum class Odometry { use, ignore };
+
+struct Carmen : WholeStep {
+  struct In {};
+  struct Out {
+    Lazy<Frame> frames;
+    Trajectory trajectory;
+  };
+  struct Params {
+    std::filesystem::path path;
+    Odometry odometry = Odometry::use;
+    double min_range = 0.05;
+    std::optional<double> max_range;
+    std::optional<double> field_of_view;
+  };
+
+  static void describe(Declaration<Carmen>& is) {
+    is.name("source.carmen").version(1).source("CARMEN's log format");
+    is.summary("Reads the scans of a 2-D laser and their odometry from a CARMEN log, packed or not.");
+    is.output("frames", &Out::frames, "one scan a frame: points in the laser's coordinates, z = 0");
+    is.output("trajectory", &Out::trajectory, "stamp and pose of the laser for every scan, in the order of the file");
+    is.param("path", &Params::path).required()
+        .doc("log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are unpacked");
+    is.choice("odometry", &Params::odometry,
+              {{"use", Odometry::use, "poses as the wheels gave them"},
+               {"ignore", Odometry::ignore, "every pose is the identity; stamps are kept"}})
+        .doc("what the poses of the trajectory are");
+    is.param("min_range", &Params::min_range).unit("m").range(0, 100)
+        .doc("nearer readings are dropped: nothing came back, or the robot saw itself");
+    is.param("max_range", &Params::max_range).unit("m").range(0.01, 1000)
+        .doc("readings from here on saw nothing and are dropped; none: found from the log");
+    is.param("field_of_view", &Params::field_of_view).unit("rad").range(1e-3, 6.2831853071795862)
+        .doc("angle from the first beam to the last, centred ahead; none: as the log says, or CARMEN's convention");
+  }
+
+  Out run(const In&, const Params& params, Context& context) const {
+    const ParallelLoop parallel = [&](std::size_t n, const auto& body) { context.parallel(n, body); };
+    const std::string text = unpacked(params.path);
+    auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));
+    const auto& scans = log->scans;
+    if (scans.size() < 2)
+      io::refuse(params.path, "has 1 whole scan, but at least 2 are needed: there is nothing to straighten");
+    report(params, *log, context);
+
+    const double repeated = repeated_maximum(scans).value_or(80);
+    const auto fan = [params](const LaserScan& scan) { return fan_of(scan, params.field_of_view); };
+    const auto limits = [params, repeated](const LaserScan& scan) {
+      if (params.max_range) return Limits{params.min_range, *params.max_range};
+      const double own = scan.maximum > 0 ? 0.99 * scan.maximum : repeated;
+      return Limits{params.min_range, std::min(own, repeated)};
+    };
+
+    Out out;
+    out.frames.keys.resize(scans.size());
+    std::vector<LeftOut> left(scans.size());
+    context.parallel(scans.size(), [&](std::size_t k) {
+      out.frames.keys[k] = content_hash(cloud_of(scans[k], fan(scans[k]), limits(scans[k]), &left[k]));
+    });
+    LeftOut sum;
+    for (const LeftOut& l : left)
+      sum.nothing_seen += l.nothing_seen, sum.too_near += l.too_near, sum.no_number += l.no_number;
+    count(context, "beams that saw nothing dropped", sum.nothing_seen);
+    count(context, "beams nearer than min_range dropped", sum.too_near);
+    count(context, "beams whose range is no number dropped", sum.no_number);
+
+    out.trajectory = trajectory_of(*log, params.odometry == Odometry::use);
+    out.frames.open = [log, fan, limits](std::size_t k, Context&) {
+      const LaserScan& scan = log->scans[k];
+      return Frame{static_cast<std::uint32_t>(k), cloud_of(scan, fan(scan), limits(scan))};
+    };
+    return out;
+  }
+
+  static Trajectory trajectory_of(const CarmenLog& log, bool use_odometry) {
+    const Pose T_robot_laser = mounting_of(log.scans, log.front_laser_offset);
+    Trajectory trajectory;
+    for (const LaserScan& scan : log.scans) {
+      trajectory.stamps.push_back(scan.stamp);
+      trajectory.T_world_frame.push_back(use_odometry && scan.robot ? in_space(*scan.robot) * T_robot_laser : Pose());
+    }
+    return trajectory;
+  }
+
+  static void count(Context& context, std::string_view what, std::size_t n) {
+    if (n) context.count(what, n);
+  }
+
+  /// Says what is in the log, and warns of what is weak.
+  static void report(const Params& params, const CarmenLog& log, Context& context) {
+    const auto& scans = log.scans;
+    context.count("scans read", scans.size());
+    count(context, "odometry lines beside the scans", log.odometry_lines);
+    count(context, "scans of a second laser left out", log.second_laser);
+    count(context, "other messages of the same laser left out", log.repeated);
+    std::size_t back = 0, unknown = 0;
+    bool moves = false;
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+      back += k > 0 && scans[k].stamp < scans[k - 1].stamp;
+      unknown += !fan_of(scans[k], params.field_of_view).known;
+      const auto &a = scans[k].robot, &b = scans[0].robot;
+      moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->theta != b->theta));
+    }
+    count(context, "stamps that step back kept in the file's order", back);
+    const std::string file = params.path.string();
+    if (log.cut + log.not_numbers)
+      context.warn(file + ":" + std::to_string(log.first_damaged) + ": " + std::to_string(log.cut) +
+                   " scans with a wrong number of words and " + std::to_string(log.not_numbers) +
+                   " with words that are no numbers are left out; this line is the first");
+    count(context, "damaged scans left out", log.cut + log.not_numbers);
+    if (unknown)
+      context.warn(file + ": " + std::to_string(unknown) + " scans have " + std::to_string(scans[0].ranges.size()) +
+                   " beams or another number of no known scanner; they are taken as 180 degrees: set field_of_view if that is wrong");
+    if (params.odometry == Odometry::use && !moves)
+      context.warn(file + ": has no odometry, or the robot never moves by it; every pose is the same: set 'odometry: ignore' if that is right");
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::Carmen)
