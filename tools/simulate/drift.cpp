@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/short_number.hpp"
 #include "simulate/random.hpp"
 
 namespace plumb::simulate {
@@ -77,12 +78,7 @@ double drift_of(const Trajectory& odometry, const Trajectory& truth) {
   return greatest;
 }
 
-Trajectory drifted(const Trajectory& truth, double drift, std::uint64_t seed) {
-  if (drift <= 0 || truth.size() < 2) return truth;
-  const std::vector<StepError> errors = slow_errors(truth, seed);
-  const auto reached = [&](double factor) {
-    return drift_of(with_errors(truth, errors, factor), truth);
-  };
+double factor_that_reaches(double drift, const std::function<double(double)>& reached) {
   double low = 0, high = 1;
   for (int k = 0; reached(high) < drift; ++k) {
     if (k == 60)
@@ -95,7 +91,15 @@ Trajectory drifted(const Trajectory& truth, double drift, std::uint64_t seed) {
     const double middle = 0.5 * (low + high);
     (reached(middle) < drift ? low : high) = middle;
   }
-  return with_errors(truth, errors, high);
+  return high;
+}
+
+Trajectory drifted(const Trajectory& truth, double drift, std::uint64_t seed) {
+  if (drift <= 0 || truth.size() < 2) return truth;
+  const std::vector<StepError> errors = slow_errors(truth, seed);
+  return with_errors(truth, errors, factor_that_reaches(drift, [&](double factor) {
+                       return drift_of(with_errors(truth, errors, factor), truth);
+                     }));
 }
 
 Trajectory transplanted(const Trajectory& truth, const Trajectory& odometry,

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include "plumb/data/short_number.hpp"
+
 namespace plumb::io {
 namespace {
 
@@ -87,7 +89,7 @@ void fill(const Column& column, std::string_view data, std::size_t points, std::
 /// A ring as the cloud keeps it.
 std::uint16_t ring_of(const std::filesystem::path& file, double value) {
   if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max()))
-    refuse(file, "has the ring " + std::to_string(value) + ": a ring is a number from 0 to 65535");
+    refuse(file, "has the ring " + short_number(value) + ": a ring is a number from 0 to 65535");
   return static_cast<std::uint16_t>(value);
 }
 

@@ -1,4 +1,5 @@
 #include "loops.hpp"
+#include "plumb/data/short_number.hpp"
 #include "plumb/plugin/module.hpp"
 #include "similarity.hpp"
 
@@ -87,8 +88,8 @@ struct LoopEdges : WholeStep {
     Loops loops = find_loops(places, alike, params);
     if (loops.edges.list.empty())
       context.warn("no loop found: no two segments with " +
-                   written(loops.least_path_gap, Quantity::length) +
-                   " of path between them lie near each other and look alike");
+                   short_number(loops.least_path_gap) +
+                   " m of path between them lie near each other and look alike");
     context.count("loop edges", loops.edges.size());
     return {std::move(loops.edges)};
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "plumb/data/error.hpp"
-#include "plumb/plugin/unit.hpp"
+#include "plumb/data/short_number.hpp"
 
 namespace plumb {
 namespace {
@@ -62,9 +62,9 @@ Lattice lattice_over(const std::vector<Eigen::AlignedBox3d>& boxes, double size)
       (all.min() / size).array().floor() - 1;  // one to spare for rounding
   const double longest = ((all.max() / size).array().floor() + 2 - first.array()).maxCoeff();
   if (!(longest <= 1 << most_bits))
-    throw Error("the segments reach over " + written(all.sizes().maxCoeff(), Quantity::length) +
-                ", too far for voxels of " + written(size, Quantity::length) +
-                ": take a larger 'voxel', or see whether the poses are right");
+    throw Error("the segments reach over " + short_number(all.sizes().maxCoeff()) +
+                " m, too far for voxels of " + short_number(size) +
+                " m: take a larger 'voxel', or see whether the poses are right");
   return {size, size * first,
           static_cast<int>(std::bit_width(static_cast<std::uint32_t>(longest)))};
 }

@@ -8,6 +8,7 @@
 
 #include "cell_index.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/short_number.hpp"
 
 namespace plumb {
 namespace {
@@ -35,9 +36,9 @@ struct Axis {
     }
     low = std::floor(least * per_metre);
     if (std::floor(greatest * per_metre) - low >= most_cells)
-      throw Error(std::string("the cloud reaches from ") + std::to_string(least) + " m to " +
-                  std::to_string(greatest) + " m along " + name +
-                  ", which is more than 2^21 cells of " + std::to_string(leaf) +
+      throw Error(std::string("the cloud reaches from ") + short_number(least) + " m to " +
+                  short_number(greatest) + " m along " + name +
+                  ", which is more than 2^21 cells of " + short_number(leaf) +
                   " m: drop far points with filter.distance, or raise leaf");
   }
   void cells(std::size_t first, std::size_t n, std::uint32_t* to) const {

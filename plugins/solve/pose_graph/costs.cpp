@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/short_number.hpp"
 #include "pose_manifold.hpp"
 
 namespace plumb {
@@ -164,7 +165,7 @@ Eigen::MatrixXd information_root(const Eigen::MatrixXd& information) {
   const auto& values = eigen.eigenvalues();
   if (!(values.minCoeff() >= -1e-9 * values.cwiseAbs().maxCoeff()))
     throw Error("an information matrix has the negative eigenvalue " +
-                std::to_string(values.minCoeff()) + "; it must be positive semidefinite");
+                short_number(values.minCoeff()) + "; it must be positive semidefinite");
   return values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
