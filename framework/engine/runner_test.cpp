@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/engine/loop.hpp"
 #include "plumb/engine/test_steps.hpp"
 #include "plumb/pipeline/reader.hpp"
 
@@ -91,6 +92,25 @@ TEST_F(Engine, RepeatsTheLastColumnUntilTheConditionHolds) {
   EXPECT_EQ(result.loops[0].passes, 7);  // 72, 36, 18, 9, 4.5, 2.25, 1.125
   EXPECT_THAT(result.loops[0].why, HasSubstr("1.125"));
   EXPECT_THAT(result.documents[0].document->bytes, HasSubstr("gates=3"));
+}
+
+TEST(Loop, SaysWhyItEndsAndWhetherTheNumberRose) {
+  PlannedRepeat repeat;
+  repeat.at_least = 2;
+  repeat.at_most = 9;
+  repeat.conditions.resize(1);
+  repeat.conditions[0].falls_by_less_than = 0.02;
+  repeat.conditions[0].metric_text = "rmse";
+  repeat.conditions[0].text = "rmse falls by less than 2 %";
+  const auto ended = [&](double first, double second) {
+    LoopJudge judge(repeat);
+    EXPECT_FALSE(judge.after_pass({first}));
+    return judge.after_pass({second}).value_or("goes on");
+  };
+  EXPECT_EQ(ended(0.3, 0.2), "goes on");
+  EXPECT_EQ(ended(0.2101357924, 0.2098765432), "rmse falls by less than 2 % (0.2101 -> 0.2099)");
+  EXPECT_EQ(ended(0.2101357924, 0.2134246801), "rmse rose (0.2101 -> 0.2134)");
+  EXPECT_EQ(ended(0.25, 0.25000001), "rmse falls by less than 2 % (it stays at 0.25)");
 }
 
 TEST_F(Engine, NamesTheStepAndTheFirstItemThatFails) {

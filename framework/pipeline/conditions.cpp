@@ -44,6 +44,7 @@ class Conditions {
       condition.falls_by_less_than = share(*falls);
     else
       condition.below = bound(*below);
+    condition.metric_text = metric->text;
     condition.text =
         metric->text + (falls ? " falls by less than " + falls->text : " is below " + below->text);
     planned_.conditions.push_back(std::move(condition));

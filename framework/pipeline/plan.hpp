@@ -64,6 +64,7 @@ struct PlannedCondition {
   std::optional<double> falls_by_less_than;      ///< ratio
   std::optional<double> below;                   ///< in the number's own unit
   Origin origin;
+  std::string metric_text;                       ///< "rmse", as written
   std::string text;                              ///< as written, for the record of why a loop ended
 };
 enum class Exhausted { warn, fail, accept };
