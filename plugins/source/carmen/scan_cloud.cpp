@@ -9,7 +9,20 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double longest = 200;  ///< [m]: no 2-D scanner of a robot sees farther
+constexpr double shortest = 3.9;  ///< [m]: no 2-D scanner of a robot sees less far (Hokuyo URG-04LX: 4.095 m)
 constexpr double beside = 0.99;  ///< readings from this share of the maximum on are the maximum
+
+/// Whether readings of `mm` millimetres come from beams all over the fan, not from a wall before a standing robot.
+bool all_over(const std::vector<LaserScan>& scans, std::size_t mm) {
+  std::vector<bool> seen;
+  std::size_t beams = 0;
+  for (const LaserScan& scan : scans) {
+    if (scan.ranges.size() > seen.size()) seen.resize(scan.ranges.size());
+    for (std::size_t k = 0; k < scan.ranges.size(); ++k)
+      if (!seen[k] && std::lround(scan.ranges[k] * 1000) == static_cast<long>(mm)) seen[k] = true, ++beams;
+  }
+  return beams >= std::max<std::size_t>(3, seen.size() / 20);
+}
 
 }  // namespace
 
@@ -36,14 +49,14 @@ std::optional<double> repeated_maximum(const std::vector<LaserScan>& scans) {
       if (range > 0 && range <= longest) ++readings[static_cast<std::size_t>(std::lround(range * 1000))], ++all;
   const double many = std::max(3.0, 1e-4 * static_cast<double>(all));
   std::uint64_t above = 0;
-  for (std::size_t mm = readings.size(); mm-- > 0; above += readings[mm]) {
+  for (std::size_t mm = readings.size(); mm-- > static_cast<std::size_t>(shortest * 1000); above += readings[mm]) {
     const double here = readings[mm];
     if (here < many) continue;
     // It is the end of what is seen, but for a few glitches, and sticks out of what is seen before it.
     std::uint64_t before = 0;
     for (std::size_t k = mm * 90 / 100; k < mm * 99 / 100; ++k) before += readings[k];
     const bool end = static_cast<double>(above) <= here / 10, sticks_out = here * 9 > 3.0 * static_cast<double>(before);
-    if (end && sticks_out) return beside * static_cast<double>(mm) / 1000;
+    if (end && sticks_out && all_over(scans, mm)) return beside * static_cast<double>(mm) / 1000;
     return std::nullopt;
   }
   return std::nullopt;
