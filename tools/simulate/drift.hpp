@@ -2,6 +2,7 @@
 /// What an odometry makes of a true path.
 
 #include <cstdint>
+#include <functional>
 
 #include "plumb/data/trajectory.hpp"
 
@@ -9,6 +10,10 @@ namespace plumb::simulate {
 
 /// Greatest distance [m] between poses of the same index, the first two laid onto each other.
 double drift_of(const Trajectory& odometry, const Trajectory& truth);
+
+/// The factor (of errors that grow with it) at which `reached(factor)` comes to `drift` [m]. Throws
+/// Error where none does.
+double factor_that_reaches(double drift, const std::function<double(double)>& reached);
 
 /// `truth` with slow drift: turning errors about all axes and an error of scale, each a first-order
 /// Gauss-Markov process along the path (100 m until it forgets itself), all scaled by one factor so

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "plumb/data/error.hpp"
@@ -12,15 +13,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* made[] = {"scene.yaml", "frames",  "odometry.tum",
+                                "truth.tum",  "log.clf", "plan.txt"};
+
 /// Whether the folder holds a simulation and nothing else.
 bool is_simulation(const fs::path& folder) {
   std::ifstream scene(folder / "scene.yaml");
   std::string line;
   if (!std::getline(scene, line) || !line.starts_with(scene_mark)) return false;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path name = entry.path().filename();
-    if (name != "scene.yaml" && name != "frames" && name != "odometry.tum" && name != "truth.tum")
-      return false;
+    const std::string name = entry.path().filename();
+    if (std::find(std::begin(made), std::end(made), name) == std::end(made)) return false;
   }
   if (fs::is_directory(folder / "frames"))
     for (const auto& entry : fs::directory_iterator(folder / "frames"))
@@ -30,7 +33,8 @@ bool is_simulation(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& place) : place_(fs::absolute(place).lexically_normal()) {
+OutputFolder::OutputFolder(const fs::path& place, const std::vector<std::string>& folders)
+    : place_(fs::absolute(place).lexically_normal()) {
   if (!place_.has_filename()) place_ = place_.parent_path();
   try {
     if (fs::exists(place_)) {
@@ -41,8 +45,9 @@ OutputFolder::OutputFolder(const fs::path& place) : place_(fs::absolute(place).l
                     ": holds something that the simulator did not make; name another folder");
     }
     const fs::path beside = place_.string() + ".partial-" + std::to_string(::getpid());
-    fs::create_directories(beside / "frames");
+    fs::create_directories(beside);
     beside_ = beside;
+    for (const std::string& name : folders) fs::create_directory(beside / name);
   } catch (const fs::filesystem_error& e) {
     throw Error(place.string() + ": cannot be made (" + e.code().message() +
                 "); name a folder that can be written");

@@ -3,15 +3,17 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace plumb::simulate {
 
 /// Written beside its place, then renamed. Destroyed before `finish`, it leaves nothing behind.
 class OutputFolder {
  public:
-  /// Throws Error where `place` exists and is neither empty nor an earlier simulation, or cannot be
-  /// made.
-  explicit OutputFolder(const std::filesystem::path& place);
+  /// With the folders named in it. Throws Error where `place` exists and is neither empty nor an
+  /// earlier simulation, or cannot be made.
+  explicit OutputFolder(const std::filesystem::path& place,
+                        const std::vector<std::string>& folders = {});
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   ~OutputFolder();

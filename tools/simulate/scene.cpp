@@ -1,7 +1,6 @@
 #include "simulate/scene.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -15,52 +14,6 @@ namespace {
 constexpr double usual_speed = 10;  // [m/s]
 
 double usual_length(const std::string& route) { return route == "blocks" ? 2900 : 1000; }
-
-/// The number at the start of `text`, which is cut off it together with the blanks behind.
-double take_number(std::string& text, const std::string& place) {
-  double value = 0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value))
-    throw Error(place + ": '" + text + "' is no number; write for example 2.5");
-  text.erase(0, static_cast<std::size_t>(end - text.data()));
-  text.erase(0, text.find_first_not_of(' ') == std::string::npos ? text.size()
-                                                                 : text.find_first_not_of(' '));
-  return value;
-}
-
-double parse(const Option& option, std::string text, bool bare_is_si, const std::string& place) {
-  const std::string whole = text;
-  double value = take_number(text, place);
-  const bool wants_unit = option.quantity != Quantity::none;
-  if (text.empty() && wants_unit && !bare_is_si)
-    throw Error(place + ": '" + whole +
-                "' lacks its unit; write one of: " + known_units(option.quantity));
-  if (!text.empty()) {
-    const Unit* unit = find_unit(text);
-    if (!wants_unit || !unit || unit->quantity != option.quantity)
-      throw Error(place + ": '" + whole + "' ends in '" + text + "'; " +
-                  (wants_unit ? "write one of: " + known_units(option.quantity)
-                              : "write a number without unit"));
-    value *= unit->factor;
-  }
-  if (value < option.low || value > option.high)
-    throw Error(place + ": " + whole + " is out of range; allowed is " +
-                written(option.low, option.quantity) + " to " +
-                written(option.high, option.quantity));
-  return value;
-}
-
-std::int64_t parse_whole(const Option& option, const std::string& text, const std::string& place) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw Error(place + ": '" + text + "' is no whole number; write for example 64");
-  if (static_cast<double>(value) < option.low || static_cast<double>(value) > option.high)
-    throw Error(place + ": " + text + " is out of range; allowed is " + shortest(option.low) +
-                " to " + shortest(option.high));
-  return value;
-}
 
 }  // namespace
 
@@ -99,20 +52,9 @@ const std::vector<Option>& options() {
 
 void set(Scene& scene, const Option& option, const std::string& text, bool bare_is_si,
          const std::string& place) {
-  const auto into = [&](auto member) {
-    auto& value = scene.*member;
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<T, std::string>) {
-      if (text.empty())
-        throw Error(place + ": is empty; name one of: " + suggestion("", route_names()));
-      value = text;
-    } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) {
-      value = parse(option, text, bare_is_si, place);
-    } else {
-      value = parse_whole(option, text, place);
-    }
-  };
-  std::visit(into, option.field);
+  if (text.empty() && std::holds_alternative<std::string Scene::*>(option.field))
+    throw Error(place + ": is empty; name one of: " + suggestion("", route_names()));
+  set_option(scene, option, text, bare_is_si, place);
 }
 
 double usual_drift(double length) { return length * (10.0 / 2900.0); }

@@ -6,10 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "plumb/plugin/unit.hpp"
+#include "simulate/option.hpp"
 #include "simulate/scanner.hpp"
 
 namespace plumb::simulate {
@@ -34,16 +33,7 @@ struct Scene {
   std::int64_t seed = 1;
 };
 
-/// One option of a scene.
-struct Option {
-  const char* key;
-  const char* about;
-  Quantity quantity = Quantity::none;
-  double low = 0, high = 0;  ///< SI, both allowed
-  std::variant<std::string Scene::*, std::int64_t Scene::*, std::optional<std::int64_t> Scene::*,
-               double Scene::*, std::optional<double> Scene::*>
-      field;
-};
+using Option = OptionOf<Scene>;
 
 /// All options but `drift_from`, which takes two files.
 const std::vector<Option>& options();

@@ -77,7 +77,7 @@ Stage set_up(const Scene& given) {
 
 Summary simulate(const Scene& scene, const std::filesystem::path& folder, int threads,
                  const std::function<void(std::size_t, std::size_t)>& progress) {
-  OutputFolder output(folder);
+  OutputFolder output(folder, {"frames"});
   const Stage stage = set_up(scene);
   const std::size_t frames = stage.truth.size();
   std::atomic<std::size_t> points{0}, bytes{0};
