@@ -9,12 +9,13 @@
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/pipeline/foreign_file.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* first_line = "# A run of Plumb: what made the files beside this one.";
+constexpr const char* first_line = pipeline::lock_first_line;
 
 /// The files that the run in `folder` wrote, by its lock; empty when there is none.
 std::set<std::string> files_of_run(const fs::path& folder) {

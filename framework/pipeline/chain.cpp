@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "plumb/pipeline/foreign_file.hpp"
 #include "plumb/pipeline/overlay.hpp"
 
 namespace plumb::pipeline {
@@ -11,13 +12,16 @@ namespace {
 constexpr std::size_t longest_chain = 16;
 constexpr std::uintmax_t largest_file = 4 << 20;
 
-std::optional<std::string> text_of(const fs::path& file, const Origin& asked,
-                                   Diagnostics& diagnostics) {
+std::optional<std::string> text_of(const fs::path& file, const fs::path& pipeline,
+                                   const Origin& asked, Diagnostics& diagnostics) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) {
-    diagnostics.add(asked, "there is no file '" + file.string() + "'.");
+  const auto refuse = [&](const Fault& fault) {
+    diagnostics.add(asked, fault.sentence, fault.hint);
     return std::nullopt;
-  }
+  };
+  if (fs::is_directory(file, error)) return refuse(foreign_folder(file));
+  if (!fs::exists(file, error))
+    return refuse({"there is no file '" + file.string() + "'.", cure_for_missing(file, pipeline)});
   std::ifstream stream(file, std::ios::binary);
   if (!stream || fs::file_size(file, error) > largest_file) {
     diagnostics.add(
@@ -27,12 +31,13 @@ std::optional<std::string> text_of(const fs::path& file, const Origin& asked,
   }
   std::ostringstream text;
   text << stream.rdbuf();
+  if (const auto fault = foreign_file(file, text.view())) return refuse(*fault);
   return text.str();
 }
 
-/// Appends `file` after what it extends. False when something cannot be read.
-bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& open, Chain& chain,
-            Diagnostics& diagnostics) {
+/// Appends `file` after what it extends; a preset is laid over `pipeline`. False when something cannot be read.
+bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
+            std::vector<fs::path>& open, Chain& chain, Diagnostics& diagnostics) {
   const fs::path canonical = fs::weakly_canonical(file);
   if (std::find(open.begin(), open.end(), canonical) != open.end() ||
       open.size() >= longest_chain) {
@@ -41,7 +46,7 @@ bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& op
     return false;
   }
   open.push_back(canonical);
-  const auto text = text_of(file, asked, diagnostics);
+  const auto text = text_of(file, pipeline, asked, diagnostics);
   if (!text) return false;
   auto tree = parse_yaml(*text, file.string(), diagnostics);
   if (!tree) return false;
@@ -56,7 +61,7 @@ bool follow(const fs::path& file, const Origin& asked, std::vector<fs::path>& op
       return false;
     }
     const fs::path next = (file.parent_path() / base->text).lexically_normal();
-    if (!follow(next, base->origin, open, chain, diagnostics)) return false;
+    if (!follow(next, pipeline, base->origin, open, chain, diagnostics)) return false;
   }
   chain.links.push_back({canonical, file.string(), std::move(*tree)});
   return true;
@@ -66,16 +71,36 @@ bool applied(const std::vector<fs::path>& done, const fs::path& file) {
   return std::find(done.begin(), done.end(), file) != done.end();
 }
 
+/// `file` as a path that is written in the file `from`.
+std::string relative_to(const fs::path& from, const fs::path& file) {
+  return fs::weakly_canonical(file)
+      .lexically_relative(fs::weakly_canonical(from).parent_path())
+      .string();
+}
+
+/// What lies over no pipeline.
+bool lone_overlay(const Node& tree, Diagnostics& diagnostics) {
+  if (tree.at("steps")) return false;
+  for (const char* key : {"remove", "replace", "add", "set"})
+    if (const Entry* entry = tree.find(key)) {
+      diagnostics.add(entry->origin,
+                      "'" + std::string(key) + "' changes a pipeline, and this file does not say which.",
+                      "Add 'extends: PIPELINE.yaml', a path relative to this file.");
+      return true;
+    }
+  return false;
+}
+
 /// Lays over what of a preset's chain is not there yet.
 void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
            std::vector<std::string>& files, Diagnostics& diagnostics) {
-  const Chain chain = read_chain(preset, diagnostics);
+  const Chain chain = read_chain(preset, files.front(), diagnostics);
   if (chain.links.empty()) return;
   const Origin origin{chain.links.back().file, 1, 1};
   if (chain.links.size() == 1) {
     diagnostics.add(origin, "a preset extends a pipeline, and this file extends none.",
-                    "Write 'extends: " + files.front() +
-                        "' (relative to the preset), or run the file by itself.");
+                    "Write 'extends: " + relative_to(chain.links.back().file, files.front()) +
+                        "', or run the file by itself.");
     return;
   }
   if (!applied(done, chain.links.front().canonical)) {
@@ -94,18 +119,19 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
 
 }  // namespace
 
-Chain read_chain(const fs::path& file, Diagnostics& diagnostics) {
+Chain read_chain(const fs::path& file, const fs::path& pipeline, Diagnostics& diagnostics) {
   Chain chain;
   std::vector<fs::path> open;
-  if (!follow(file.lexically_normal(), {file.string(), 0, 0}, open, chain, diagnostics))
+  if (!follow(file.lexically_normal(), pipeline, {file.string(), 0, 0}, open, chain, diagnostics))
     chain.links.clear();
   return chain;
 }
 
 std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay,
                                   Diagnostics& diagnostics, std::vector<std::string>& files) {
-  Chain chain = read_chain(file, diagnostics);
-  if (chain.links.empty()) return std::nullopt;
+  Chain chain = read_chain(file, {}, diagnostics);
+  if (chain.links.empty() || lone_overlay(chain.links.front().tree, diagnostics))
+    return std::nullopt;
   Node pipeline = chain.links.front().tree;
   std::vector<fs::path> done;
   for (const auto& link : chain.links) {

@@ -16,9 +16,9 @@ struct Chain {
   std::vector<Link> links;
 };
 
-/// Reads `file` and, if it extends another, that one too. Empty when one cannot be read; the
-/// diagnostic is written.
-Chain read_chain(const std::filesystem::path& file, Diagnostics& diagnostics);
+/// Reads `file` and, if it extends another, that one too; a preset is to lie over `pipeline`, beside which one of nearly its name is
+/// looked for. Empty when one cannot be read; the diagnostic is written.
+Chain read_chain(const std::filesystem::path& file, const std::filesystem::path& pipeline, Diagnostics& diagnostics);
 
 /// The pipeline as one tree: `file`, what it lays over what it extends, then presets and sets.
 /// `files` gets all names.

@@ -75,6 +75,7 @@ TEST_F(Overlays, NameWhatCannotBeSet) {
   EXPECT_THAT(told({"coarse.kept=1"}), HasSubstr("--set coarse.kept=1: "));
   EXPECT_THAT(told({"voxel"}), HasSubstr("expected NAME=VALUE."));
   EXPECT_THAT(told({"voxel=1"}), HasSubstr("--set voxel=1: parameter 'voxel': '1' has no unit"));
+  EXPECT_THAT(told({"voxel=1"}), HasSubstr("'1' has no unit, expected a length.\n"));  // not: or none
   EXPECT_THAT(told({"voxel=1m", "voxel=2m"}), HasSubstr("'voxel' is set twice"));
 }
 
@@ -143,7 +144,17 @@ TEST_F(Overlays, AreRefusedWhereTheyDoNotFit) {
   EXPECT_THAT(told({}, {"a.yaml"}), HasSubstr("a.yaml:2:10: this preset extends '"));
   EXPECT_THAT(told({}, {"other.yaml"}),
               HasSubstr("a preset extends a pipeline, and this file extends none."));
+  EXPECT_THAT(told({}, {"other.yaml"}), HasSubstr("Write 'extends: cascade.yaml', or run"));
   EXPECT_THAT(told({}, {"none.yaml"}), HasSubstr("there is no file"));
+  folder_.write("lone.yaml", "plumb: 1\nset: {voxel: 1 m}\n");
+  try {
+    read_pipeline(folder_.path() / "lone.yaml", {}, test::registry());
+    FAIL();
+  } catch (const PipelineError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("lone.yaml:2:1: 'set' changes a pipeline, and this file does not say which."));
+    EXPECT_THAT(error.what(), HasSubstr("Add 'extends: PIPELINE.yaml'"));
+    EXPECT_EQ(error.diagnostics().size(), 1u);
+  }
   folder_.write("b.yaml",
                 "plumb: 1\nextends: cascade.yaml\nste: {voxel: 1 m}\nremove: [coarse.kpet]\nadd: "
                 "{edges: {use: x}}\nreplace: {edgse: {use: x}}\n");
@@ -154,6 +165,12 @@ TEST_F(Overlays, AreRefusedWhereTheyDoNotFit) {
   EXPECT_THAT(all, HasSubstr("Did you mean 'edges'?"));
   folder_.write("self.yaml", "plumb: 1\nextends: self.yaml\n");
   EXPECT_THAT(told({}, {"self.yaml"}), HasSubstr("extends itself"));
+}
+
+TEST_F(Overlays, AreFoundByTheirNameBesideThePipeline) {
+  const auto preset = folder_.write("presets/car.yaml", "plumb: 1\nextends: ../cascade.yaml\nset: {voxel: 1 m}\n");
+  for (const char* name : {"car", "cra", "car.yaml", "else/car.yaml"})
+    EXPECT_THAT(told({}, {name}), HasSubstr("Did you mean '" + preset.string() + "'?"));
 }
 
 TEST_F(Overlays, ShowThePassesAsATable) {

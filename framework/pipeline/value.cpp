@@ -24,6 +24,12 @@ std::string unit_cure(Quantity quantity, const std::string& number) {
          "'; known: " + known + ".";
 }
 
+/// What a number that does not serve should be: who wrote one does not ask for none.
+std::string expected_instead(ParameterDescription parameter) {
+  parameter.may_be_none = false;
+  return expected(parameter);
+}
+
 std::variant<ParameterValue, Fault> read_quantity(const ParameterDescription& parameter,
                                                   const std::string& text) {
   auto number = read_number(text);
@@ -34,11 +40,11 @@ std::variant<ParameterValue, Fault> read_quantity(const ParameterDescription& pa
       return Fault{"'" + text + "' has a unit, expected a bare number",
                    "Leave out the '" + std::string(measured.unit->symbol) + "'."};
   } else if (!measured.unit) {
-    return Fault{"'" + text + "' has no unit, expected " + expected(parameter),
+    return Fault{"'" + text + "' has no unit, expected " + expected_instead(parameter),
                  unit_cure(parameter.quantity, text)};
   } else if (measured.unit->quantity != parameter.quantity) {
     return Fault{"'" + text + "' is " + with_article(name_of(measured.unit->quantity)) +
-                     ", expected " + expected(parameter),
+                     ", expected " + expected_instead(parameter),
                  "Known units: " + known_units(parameter.quantity) + "."};
   }
   return ParameterValue(measured.si);

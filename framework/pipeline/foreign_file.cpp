@@ -1,0 +1,70 @@
+#include "plumb/pipeline/foreign_file.hpp"
+
+#include <algorithm>
+
+#include "plumb/data/io/file_kind.hpp"
+
+namespace plumb::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+/// The YAML files of a folder, by name; none when it cannot be read.
+std::vector<fs::path> yaml_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? fs::path(".") : folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().extension() == ".yaml" || at->path().extension() == ".yml")
+      files.push_back((folder / at->path().filename()).lexically_normal());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string stem_of(const fs::path& file) {
+  const auto extension = file.extension();
+  return (extension == ".yaml" || extension == ".yml" ? file.stem() : file.filename()).string();
+}
+
+}  // namespace
+
+std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
+  const std::string name = "'" + file.string() + "' is ";
+  if (text.starts_with(lock_first_line))
+    return Fault{name + "the record of a run, not a pipeline.",
+                 "Give the pipeline that was run; its text stands in the record, behind 'pipeline:'."};
+  const std::string kind = io::kind_of_content(text);
+  if (kind.empty() || kind == "a pipeline") return std::nullopt;
+  if (kind == "a JSON Schema")
+    return Fault{name + "a JSON Schema, not a pipeline.", "It is for editors; give the YAML file of a pipeline."};
+  return Fault{name + kind + ", not a pipeline.",
+               "Give the YAML file of a pipeline; its data goes behind --set, as in --set input=DIR."};
+}
+
+Fault foreign_folder(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::path& file : yaml_files(folder)) names.push_back(file.string());
+  constexpr std::size_t readable = 8;
+  return {"'" + folder.string() + "' is a folder, not a pipeline.",
+          names.empty() || names.size() > readable
+              ? "Give the YAML file of a pipeline; its data goes behind --set, as in --set input=DIR."
+              : "In it: " + joined(names) + "."};
+}
+
+std::string cure_for_missing(const fs::path& file, const fs::path& pipeline) {
+  std::vector<fs::path> folders = {file.parent_path()};
+  if (pipeline.empty())
+    folders.insert(folders.end(), {"pipelines", "pipelines/presets"});
+  else
+    folders.insert(folders.end(), {pipeline.parent_path(), pipeline.parent_path() / "presets"});
+  std::vector<fs::path> found;
+  std::vector<std::string> stems;
+  for (const fs::path& folder : folders)
+    for (const fs::path& candidate : yaml_files(folder)) {
+      found.push_back(candidate);
+      stems.push_back(stem_of(candidate));
+    }
+  const std::string near = nearest(stem_of(file), stems);
+  const auto at = std::find(stems.begin(), stems.end(), near);
+  return at == stems.end() ? "" : "Did you mean '" + found[at - stems.begin()].string() + "'?";
+}
+
+}  // namespace plumb::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+/// Files that somebody took for a pipeline, and names that lead to none.
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "plumb/pipeline/value.hpp"
+
+namespace plumb::pipeline {
+
+/// The first line of every run.lock.yaml.
+inline constexpr const char* lock_first_line = "# A run of Plumb: what made the files beside this one.";
+
+/// What `file` is and what to give instead, when its text is plainly no pipeline's.
+std::optional<Fault> foreign_file(const std::filesystem::path& file, std::string_view text);
+
+/// The same for a folder.
+Fault foreign_folder(const std::filesystem::path& folder);
+
+/// Which pipeline or preset of about that name there is. A preset is also looked for beside `pipeline` and in its presets/.
+std::string cure_for_missing(const std::filesystem::path& file, const std::filesystem::path& pipeline);
+
+}  // namespace plumb::pipeline
