@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "plumb/pipeline/reader.hpp"
 #include "plumb/pipeline/tree.hpp"
@@ -26,6 +27,7 @@ struct Scope {
   int parent = -1;
   int repeat = -1;  ///< the innermost repeat whose body this lies in
   std::map<std::string, Symbol, std::less<>> names;
+  std::set<std::string> broken;  ///< names of what is neither step, group nor repeat, which was told
 };
 
 struct DraftStep {
@@ -33,6 +35,7 @@ struct DraftStep {
   int scope = -1, repeat = -1;
   int sequence = 0;  ///< in the order written
   bool used = false;
+  bool misspelt = false;  ///< has a key that is none: what it lacks may be meant by it
 };
 
 /// One output that a reference may mean.
@@ -82,6 +85,7 @@ struct Draft {
   std::vector<DraftStep> steps;      ///< as plan.steps
   std::vector<DraftRepeat> repeats;  ///< as plan.repeats
   std::map<std::string, Setting> settings;
+  bool dangling = false;  ///< something that was written leads nowhere: what it meant only looks unused
 
   void fault(const Origin& origin, std::string sentence, std::string hint = "") {
     diagnostics.add(origin, std::move(sentence), std::move(hint));

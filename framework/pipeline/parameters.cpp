@@ -41,7 +41,7 @@ void read_step(Draft& draft, int index) {
       const auto value = value_of(draft, title + ": parameter '" + parameter.name + "'", parameter,
                                   *node, step.repeat, &filled);
       if (value) filled.value = *value;
-    } else if (parameter.required) {
+    } else if (parameter.required && !step.misspelt) {
       draft.fault(
           planned.origin,
           title + ": parameter '" + parameter.name + "' is missing, " + expected(parameter) + ".",

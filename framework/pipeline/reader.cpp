@@ -14,7 +14,7 @@ Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
   auto tree = load_pipeline(file, overlay, diagnostics, files);
   if (!tree) diagnostics.raise();
 
-  Draft draft{registry, diagnostics, std::move(*tree), overlay.open, {}, {}, {}, {}, {}};
+  Draft draft{registry, diagnostics, std::move(*tree), overlay.open, {}, {}, {}, {}, {}, false};
   draft.plan.files = std::move(files);
   read_settings(draft);
   read_steps(draft);

@@ -50,6 +50,7 @@ class Lookup {
     int at = scope;
     while (at >= 0 && !draft_.scopes[at].names.count(parts_[0])) at = draft_.scopes[at].parent;
     if (at < 0) {
+      if (broken(scope, parts_[0], true)) return std::nullopt;
       draft_.fault(node_.origin, "nothing here is called '" + parts_[0] + "'.",
                    did_you_mean(parts_[0], names_in(draft_, scope, true)));
       return std::nullopt;
@@ -61,6 +62,7 @@ class Lookup {
       const std::string& path = draft_.scopes[at].path;
       const auto known = names_in(draft_, at, false);
       if (used == parts_.size()) {
+        draft_.dangling = true;
         draft_.fault(node_.origin,
                      "'" + node_.text + "' is a " +
                          (symbol.kind == Symbol::Kind::group ? "group" : "repeat") +
@@ -70,11 +72,13 @@ class Lookup {
       }
       const auto next = draft_.scopes[at].names.find(parts_[used]);
       if (next == draft_.scopes[at].names.end()) {
+        if (broken(at, parts_[used], false)) return std::nullopt;
         draft_.fault(node_.origin, "there is no step '" + parts_[used] + "' in '" + path + "'.",
                      did_you_mean(parts_[used], known));
         return std::nullopt;
       }
       if (next->second.kind == Symbol::Kind::carry) {
+        draft_.dangling = true;
         draft_.fault(node_.origin,
                      "'" + parts_[used] + "' is what '" + path +
                          "' carries from pass to pass, not seen from outside.",
@@ -90,6 +94,14 @@ class Lookup {
   }
 
  private:
+  /// Whether the name that is not found was told of where it stands.
+  bool broken(int scope, const std::string& name, bool outwards) {
+    draft_.dangling = true;
+    for (; scope >= 0; scope = outwards ? draft_.scopes[scope].parent : -1)
+      if (draft_.scopes[scope].broken.count(name)) return true;
+    return false;
+  }
+
   std::optional<std::vector<Source>> outputs(int step, std::size_t used) {
     const StepDescription* description = draft_.plan.steps[step].description;
     if (!description) {

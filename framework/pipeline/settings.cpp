@@ -166,6 +166,7 @@ std::optional<ParameterValue> setting_value(Draft& draft, const std::string& pla
                                             const std::string& name, PlannedParameter* planned) {
   const auto at = draft.settings.find(name);
   if (at == draft.settings.end()) {
+    draft.dangling = true;
     draft.fault(node.origin, place + ": nothing is called '$" + name + "'.",
                 did_you_mean(name, names_of(draft.settings)));
     return std::nullopt;

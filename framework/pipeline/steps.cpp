@@ -74,9 +74,15 @@ class Steps {
     const bool is_step = node.is_map() && node.at("use");
     const bool is_repeat = node.is_map() && node.at("repeat");
     if (!is_step && !is_repeat && !(node.is_map() && node.at("steps"))) {
+      std::string near;
+      for (const std::string& key : node.keys())
+        if (near.empty()) near = nearest(key, {"use", "steps", "repeat"});
       draft_.fault(entry.origin, "'" + path(scope, entry.key) +
                                      "' is neither a step ('use'), nor a group ('steps'), nor a "
-                                     "repeat ('repeat' and 'steps').");
+                                     "repeat ('repeat' and 'steps').",
+                   near.empty() ? "" : "Did you mean '" + near + "'?");
+      draft_.scopes[scope].broken.insert(entry.key);
+      draft_.dangling = true;
       return std::nullopt;
     }
     Symbol symbol{Symbol::Kind::group, -1, entry.origin};
@@ -93,7 +99,7 @@ class Steps {
     else if (is_repeat)
       add_repeat(entry, scope, repeat);
     else
-      draft_.scopes.push_back({path(scope, entry.key), scope, repeat, {}});
+      draft_.scopes.push_back({path(scope, entry.key), scope, repeat, {}, {}});
     return symbol;
   }
 
@@ -110,7 +116,10 @@ class Steps {
     else
       planned.inputs.resize(planned.description->inputs.size());
     draft_.plan.steps.push_back(std::move(planned));
-    draft_.steps.push_back({&node, scope, repeat, sequence_.at(&node), false});
+    DraftStep drafted{&node, scope, repeat, sequence_.at(&node)};
+    for (const std::string& key : node.keys()) drafted.misspelt |= key != "use" && key != "from" && key != "with";
+    draft_.dangling |= drafted.misspelt;
+    draft_.steps.push_back(drafted);
   }
 
   void unknown_step(const std::string& step, const Node& use) {
@@ -131,7 +140,7 @@ class Steps {
     planned.path = path(scope, entry.key);
     planned.origin = entry.origin;
     const int body = static_cast<int>(draft_.scopes.size());
-    draft_.scopes.push_back({planned.path, scope, static_cast<int>(draft_.repeats.size()), {}});
+    draft_.scopes.push_back({planned.path, scope, static_cast<int>(draft_.repeats.size()), {}, {}});
     draft_.plan.repeats.push_back(std::move(planned));
     DraftRepeat repeat;
     repeat.node = &entry.value;
@@ -159,7 +168,7 @@ class Steps {
 }  // namespace
 
 void read_steps(Draft& draft) {
-  draft.scopes.push_back({});
+  draft.scopes.emplace_back();
   Steps(draft).read(draft.tree.at("steps"), {draft.tree.origin.file, 1, 1}, 0);
 }
 

@@ -16,6 +16,7 @@ bool leaves_something(const StepDescription& step) {
 }  // namespace
 
 void find_unused(Draft& draft) {
+  if (draft.dangling) return;  // it may be what was meant
   for (const auto& [name, setting] : draft.settings)
     if (!setting.used)
       draft.fault(setting.declared, "nothing uses the parameter '" + name + "'.",

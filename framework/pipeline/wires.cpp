@@ -75,7 +75,8 @@ class Binder {
       bind_one(*from);
     for (std::size_t k = 0; k < planned_.inputs.size(); ++k) {
       const InputDescription& input = planned_.description->inputs[k];
-      if (!planned_.inputs[k].empty() || input.optional || faulty_) continue;
+      if (!planned_.inputs[k].empty() || input.optional || faulty_ || draft_.steps[step_].misspelt)
+        continue;
       draft_.fault(planned_.origin,
                    title_ + ": its input '" + input.name + "' is not wired, it wants " +
                        wanted(kind(), input) + ".",
