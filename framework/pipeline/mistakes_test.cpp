@@ -131,6 +131,18 @@ TEST(Mistakes, InYaml) {
   EXPECT_THAT(told(std::string(5000, '[')), HasSubstr("a.yaml:1:"));
 }
 
+TEST(Mistakes, InYamlAreShownInTheLineThatIsToBlame) {
+  const auto of = [](const std::string& steps) { return told("plumb: 1\nsteps:\n" + steps); };
+  EXPECT_THAT(of("  a: {use: x\n  b: {use: y}\n"), HasSubstr("a.yaml:3:6: this is not YAML: the '{' is not closed."));
+  EXPECT_THAT(of("  a: {use: x, from: [y\n  b: {use: y}\n"), HasSubstr("a.yaml:3:21: this is not YAML: the '[' is"));
+  EXPECT_THAT(of("  a: {use: x, with: {b: 1}\n\n  # c\n  c: {use: y}\n"), HasSubstr("a.yaml:3:6: "));
+  EXPECT_THAT(of("  a: {use: x\n"), HasSubstr("a.yaml:3:6: "));
+  EXPECT_THAT(of("  a:\n    use: x\n    form\n\n    with: {b: 1}\n"), HasSubstr("a.yaml:5:5: this is not YAML: this line has no ':'."));
+  EXPECT_THAT(told("plumb 1\nsteps:\n  a: {use: y}\n"), HasSubstr("a.yaml:1:1: this is not YAML: this line has no"));
+  EXPECT_THAT(of("\ta: {use: x}\n"), HasSubstr("a.yaml:3:1: this is not YAML: a tab indents this line."));
+  EXPECT_THAT(of("  a: use: x\n"), HasSubstr("a.yaml:3:9: this is not YAML: illegal map value."));  // not moved
+}
+
 TEST(Mistakes, InKeysAndNames) {
   EXPECT_THAT(told_with("from: segments}", "form: segments}"),
               HasSubstr("a.yaml:13:34: step 'fpfh': unknown key 'form'."));
@@ -155,6 +167,21 @@ TEST(Mistakes, InKeysAndNames) {
 TEST(Mistakes, OfOneStepDoNotCauseMore) {
   const std::string all = told_with("use: describe.fpfh", "use: describe.fphf");
   EXPECT_EQ(std::count(all.begin(), all.end(), '^'), 1) << all;
+}
+
+TEST(Mistakes, OfOneWordAreToldOnce) {
+  const auto once = [&](const std::string& old, const std::string& fresh) {
+    const std::string all = told_with(old, fresh);
+    EXPECT_EQ(std::count(all.begin(), all.end(), '^'), 1) << all;
+    return all;
+  };
+  EXPECT_THAT(once("from: merged", "from: megred"), HasSubstr("Did you mean 'merged'?"));
+  EXPECT_THAT(once("from: merged", "form: merged"), HasSubstr("Did you mean 'from'?"));
+  EXPECT_THAT(once("{use: describe.fpfh", "{ues: describe.fpfh"), HasSubstr("Did you mean 'use'?"));
+  EXPECT_THAT(once("with: {path: $input}", "wiht: {path: $input}"), HasSubstr("Did you mean 'with'?"));
+  EXPECT_THAT(once("leaf: $voxel", "leaf: $voxle"), HasSubstr("Did you mean 'voxel'?"));
+  EXPECT_THAT(once("max: $gate", "max: $gaet"), HasSubstr("nothing is called '$gaet'"));
+  EXPECT_THAT(once("from: segments}", "from: descriptors}"), HasSubstr("nothing here is called"));
 }
 
 TEST(Mistakes, InWires) {
@@ -307,6 +334,28 @@ TEST(Mistakes, OfFilesThatAreNotThere) {
   } catch (const PipelineError& error) {
     EXPECT_THAT(error.what(), HasSubstr("there is no file 'no/such.yaml'."));
   }
+}
+
+TEST(Mistakes, OfTakingSomethingElseForAPipeline) {
+  EXPECT_THAT(told("# .PCD v0.7\nVERSION 0.7\n"), HasSubstr("a.yaml' is a point cloud (PCD), not a pipeline."));
+  EXPECT_THAT(told("{\n  \"$schema\": \"x\"}"), HasSubstr("a.yaml' is a JSON Schema, not a pipeline."));
+  EXPECT_THAT(told("# A run of Plumb: what made the files beside this one.\nplumb: 0.1\n"),
+              HasSubstr("a.yaml' is the record of a run, not a pipeline."));
+  EXPECT_THAT(told("1 2 3 4 0 0 0 1\n"), HasSubstr("is a trajectory (TUM), not a pipeline.\n  Give the YAML file"));
+  const test::Folder folder;
+  folder.write("pipelines/city.yaml", cascade);
+  const auto told_of = [&](const std::string& name) {
+    try {
+      read_pipeline(folder.path() / name, {}, test::registry());
+    } catch (const PipelineError& error) {
+      EXPECT_EQ(error.diagnostics().size(), 1u);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(told_of("pipelines"), HasSubstr("pipelines' is a folder, not a pipeline.\n  In it: "));
+  EXPECT_THAT(told_of("pipelines/ctiy.yaml"), HasSubstr("Did you mean '" + (folder.path() / "pipelines/city.yaml").string()));
+  EXPECT_THAT(told_of("pipelines/city"), HasSubstr("/pipelines/city.yaml'?"));
 }
 
 TEST(Mistakes, NeverCrashTheReader) {

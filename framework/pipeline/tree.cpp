@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "plumb/pipeline/syntax.hpp"
+
 namespace plumb::pipeline {
 
 const Entry* Node::find(std::string_view key) const {
@@ -86,6 +88,11 @@ class Builder : public YAML::EventHandler {
       : file_(std::move(file)), diagnostics_(diagnostics) {}
 
   Node take() { return std::move(root_); }
+  /// The innermost list or map that is not at its end, when it is written in brackets.
+  std::optional<Origin> open_bracket() const {
+    if (open_.empty() || !open_.back().in_brackets) return std::nullopt;
+    return open_.back().node.origin;
+  }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -120,13 +127,13 @@ class Builder : public YAML::EventHandler {
     attach(std::move(node), anchor);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    start(Node::Kind::list, mark, tag, anchor);
+                       YAML::EmitterStyle::value style) override {
+    start(Node::Kind::list, mark, tag, anchor, style);
   }
   void OnSequenceEnd() override { end(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    start(Node::Kind::map, mark, tag, anchor);
+                  YAML::EmitterStyle::value style) override {
+    start(Node::Kind::map, mark, tag, anchor, style);
   }
   void OnMapEnd() override { end(); }
 
@@ -134,7 +141,7 @@ class Builder : public YAML::EventHandler {
   struct Open {
     Node node;
     YAML::anchor_t anchor;
-    bool has_key = false;
+    bool has_key = false, in_brackets = false;
     Entry key;
   };
 
@@ -157,7 +164,7 @@ class Builder : public YAML::EventHandler {
                      "the tag '" + tag + "' means nothing in a pipeline; leave it out.");
   }
   void start(Node::Kind kind, const YAML::Mark& mark, const std::string& tag,
-             YAML::anchor_t anchor) {
+             YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
     if (expects_key()) stop(mark, "a key must be a plain word.");
     if (open_.size() >= deepest) stop(mark, "nested more than 64 deep.");
     refuse_tag(mark, tag);
@@ -165,6 +172,7 @@ class Builder : public YAML::EventHandler {
     open.node.kind = kind;
     open.node.origin = origin(mark);
     open.anchor = anchor;
+    open.in_brackets = style == YAML::EmitterStyle::Flow;
     open_.push_back(std::move(open));
   }
   void end() {
@@ -236,8 +244,9 @@ std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
   } catch (const Stop&) {
   } catch (const YAML::Exception& fault) {
     const bool placed = !fault.mark.is_null();
-    diagnostics.add(placed ? at(fault.mark) : Origin{file, 1, 1},
-                    "this is not YAML: " + fault.msg + ".");
+    const SyntaxFault told = syntax_fault(text, placed ? at(fault.mark) : Origin{file, 1, 1},
+                                          fault.msg, builder.open_bracket());
+    diagnostics.add(told.origin, told.sentence, told.hint);
   }
   return std::nullopt;
 }
