@@ -1,0 +1,184 @@
+/// What one call of a step sees: the inputs that it gathers, the key that they make, the call itself.
+#include "plumb/engine/step_run.hpp"
+
+#include "plumb/data/error.hpp"
+#include "plumb/engine/item_context.hpp"
+#include "plumb/engine/step_key.hpp"
+
+namespace plumb {
+namespace {
+
+/// Values [first, end) of an output, opened when asked for.
+class RunCollection final : public Collection {
+ public:
+  RunCollection(Source source, std::size_t first, std::size_t end)
+      : source_(std::move(source)), first_(first), end_(end) {}
+  std::size_t size() const override { return end_ - first_; }
+  AnyValue open(std::size_t k) const override { return source_.run->value(source_.output, first_ + k); }
+  const Edges* edges() const override { return source_.run->edges().get(); }
+
+ private:
+  Source source_;
+  std::size_t first_, end_;
+};
+
+}  // namespace
+
+std::size_t StepRun::first_frame(std::size_t k) const {
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>())
+      return inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>()->first;
+  throw Error("has frames but no ranges");
+}
+
+std::size_t StepRun::end_frame(std::size_t k) const {
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>())
+      return inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>()->end;
+  throw Error("has frames but no ranges");
+}
+
+/// Mirrors gather: what a call sees is what its key is made of.
+void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
+  const InputDescription& input = plan_.description->inputs[port];
+  const auto add = [&](const Hash128& h) { hasher.bytes(&h, sizeof h); };
+  const auto add_number = [&](std::uint64_t n) { hasher.bytes(&n, sizeof n); };
+  add_number(inputs_[port].size());
+  if (inputs_[port].empty()) return;
+  const Source& source = inputs_[port].front();
+  switch (input.access) {
+    case Access::item:
+      add(source.run->key(source.output, input.type->grain == Grain::whole ? 0 : k));
+      break;
+    case Access::ends:
+      add(source.run->key(source.output, edges_->list[k].i));
+      add(source.run->key(source.output, edges_->list[k].j));
+      break;
+    case Access::each: {
+      const bool own_frames = itemwise();
+      const std::size_t first = own_frames ? first_frame(k) : 0;
+      const std::size_t end = own_frames ? end_frame(k) : source.run->count(source.output);
+      add_number(end - first);
+      for (std::size_t n = first; n < end; ++n) add(source.run->key(source.output, n));
+      if (source.run->edges()) add(content_hash(*source.run->edges()));
+      break;
+    }
+    case Access::several:
+      for (const Source& one : inputs_[port]) {
+        hasher.text(one.label);
+        add(one.run->key(one.output));
+      }
+      break;
+    case Access::relative: {
+      const auto poses = source.run->value(source.output).as<Poses>();
+      add(content_hash(poses->relative(edges_->list[k].i, edges_->list[k].j)));
+      break;
+    }
+    case Access::over_edges: break;
+    case Access::this_edge: add(content_hash(edges_->list[k])); break;
+  }
+}
+
+Hash128 StepRun::call_key(std::size_t k) {
+  Hasher hasher;
+  hasher.bytes(&base_key_, sizeof base_key_);
+  for (std::size_t p = 0; p < inputs_.size(); ++p) hash_input(hasher, p, k);
+  return hasher.hash();
+}
+
+std::vector<PortInput> StepRun::gather(std::size_t k) {
+  std::vector<PortInput> ports(inputs_.size());
+  for (std::size_t p = 0; p < ports.size(); ++p) {
+    PortInput& port = ports[p];
+    if (inputs_[p].empty()) continue;
+    port.wired = true;
+    const InputDescription& input = plan_.description->inputs[p];
+    const Source& source = inputs_[p].front();
+    switch (input.access) {
+      case Access::item:
+        port.one = source.run->value(source.output, input.type->grain == Grain::whole ? 0 : k);
+        break;
+      case Access::ends:
+        port.one = source.run->value(source.output, edges_->list[k].i);
+        port.other = source.run->value(source.output, edges_->list[k].j);
+        break;
+      case Access::each:
+        port.each = itemwise() ? std::make_shared<RunCollection>(source, first_frame(k), end_frame(k))
+                               : std::make_shared<RunCollection>(source, 0, source.run->count(source.output));
+        break;
+      case Access::several:
+        for (const Source& one : inputs_[p]) port.several.emplace_back(one.label, one.run->value(one.output));
+        break;
+      case Access::relative:
+        port.T_i_j = source.run->value(source.output).as<Poses>()->relative(edges_->list[k].i, edges_->list[k].j);
+        break;
+      case Access::over_edges: break;
+      case Access::this_edge: port.edge = edges_->list[k]; break;
+    }
+  }
+  return ports;
+}
+
+void StepRun::run_fold(std::vector<PortOutput>& outputs) {
+  ItemContext context(state_.books, plan_.path, [this] { return base_key_.low; });
+  const auto state = step_.begin({});
+  std::size_t frames = 0;
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type->grain == Grain::frame)
+      frames = inputs_[p].front().run->count(inputs_[p].front().output);
+  for (std::size_t n = 0; n < frames; ++n) step_.fold(state.get(), params_.get(), gather(n), context);
+  step_.finish(state.get(), params_.get(), outputs, context);
+}
+
+std::string StepRun::item_name(std::size_t k) const {
+  switch (plan_.description->kind) {
+    case StepKind::frame: return ", frame " + std::to_string(k);
+    case StepKind::segment: return ", segment " + std::to_string(k);
+    case StepKind::edge:
+      return ", edge " + std::to_string(edges_->list[k].i) + "-" + std::to_string(edges_->list[k].j);
+    default: return "";
+  }
+}
+
+/// From what the call sees, by content: a copied file or another folder gives the same numbers. Collections are not looked at.
+std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
+  Hasher hasher;
+  hasher.bytes(&base_key_, sizeof base_key_);
+  const auto add = [&](const AnyValue& value) {
+    if (!value) return;
+    const Hash128 content = value.type->hash(value.value.get());
+    hasher.bytes(&content, sizeof content);
+  };
+  for (const PortInput& port : inputs) {
+    add(port.one);
+    add(port.other);
+    for (const auto& [label, value] : port.several) add(value);
+    const Hash128 rest = joined_key(content_hash(port.T_i_j), content_hash(port.edge));
+    hasher.bytes(&rest, sizeof rest);
+  }
+  return hasher.hash().low;
+}
+
+std::vector<PortOutput> StepRun::call(std::size_t k) {
+  std::vector<PortOutput> outputs(plan_.description->outputs.size());
+  if (plan_.description->kind == StepKind::fold) {
+    run_fold(outputs);
+    return outputs;
+  }
+  const auto inputs = gather(k);  // outside the try: what an earlier step says of itself needs no second name
+  const bool passing = itemwise() && keeping_ == Keeping::passing;
+  ItemContext context(state_.books, plan_.path, [&] { return seed_of(inputs); }, !passing || first_asked(0, k));
+  try {
+    step_.run(params_.get(), inputs, outputs, context);
+  } catch (const std::bad_alloc&) {
+    throw Error("step '" + plan_.path + "' (" + plan_.description->name + ")" + item_name(k) +
+                ": memory is used up; give smaller segments or a larger voxel");
+  } catch (const NestedError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + ")" + item_name(k) + ": " + e.what());
+  }
+  return outputs;
+}
+
+}  // namespace plumb
