@@ -7,6 +7,8 @@
 
 #include <cstdio>
 
+#include "plumb/report/weakness.hpp"
+
 namespace plumb::command {
 
 Console::Console(bool quiet, const std::string& log_file)
@@ -15,6 +17,7 @@ Console::Console(bool quiet, const std::string& log_file)
   screen->set_pattern("%v");
   screen->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   log_ = std::make_shared<spdlog::logger>("plumb", screen);
+  log_->set_level(spdlog::level::debug);
   if (!log_file.empty()) {
     auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, true);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
@@ -72,7 +75,10 @@ void Console::pass_begins(const std::string& repeat, int pass, int at_most) {
 void Console::note(const std::string& sentence) {
   const std::lock_guard lock(mutex_);
   clear();
-  log_->warn("note: {}", sentence);
+  constexpr int most = 3;  // of one kind on the screen; the log has all
+  const int told = ++notes_[kind_of_sentence(sentence)];
+  log_->log(told <= most ? spdlog::level::warn : spdlog::level::debug, "note: {}{}", sentence,
+            told == most ? " (more like this are not shown)" : "");
 }
 
 }  // namespace plumb::command

@@ -32,6 +32,7 @@ class Console final : public Observer {
   bool quiet_, terminal_;
   std::shared_ptr<spdlog::logger> log_;
   std::string path_;
+  std::map<std::string, int> notes_;  ///< how often each kind was told
   std::size_t items_ = 0, done_ = 0;
   std::chrono::steady_clock::time_point begin_, drawn_;
 };

@@ -30,7 +30,7 @@ void run(const Options& options) {
     run_options.threads = options.threads;
     const RunResult result = run_plan(plan, steps, run_options, console);
     folder.fill(plan, result);
-    if (options.quiet) print_weak(std::cerr, result);
+    if (options.quiet) print_weak(std::cerr, result, false);
     else print_summary(std::cout, plan, result, options.output, options.times);
   } catch (const Error& e) {
     std::cerr << "plumb: " << e.what() << "\n";

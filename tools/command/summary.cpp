@@ -4,6 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plumb/report/weakness.hpp"
+
 namespace plumb::command {
 namespace {
 
@@ -69,9 +71,8 @@ void print_times(std::ostream& out, const RunResult& result) {
 
 }  // namespace
 
-void print_weak(std::ostream& out, const RunResult& result) {
-  for (const MadeMetrics& made : result.metrics)
-    for (const std::string& sentence : made.metrics->notes) out << "weak: " << made.path << ": " << sentence << "\n";
+void print_weak(std::ostream& out, const RunResult& result, bool warnings) {
+  for (const std::string& sentence : weaknesses(result, warnings)) out << "weak: " << sentence << "\n";
 }
 
 void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
@@ -81,8 +82,7 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   for (const LoopEnd& loop : result.loops)
     out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
   for (const std::string& count : result.counts) out << "counted: " << count << "\n";
-  for (const std::string& warning : result.warnings) out << "weak: " << warning << "\n";
-  print_weak(out, result);
+  print_weak(out, result, true);
   if (times) print_times(out, result);
   out << plan.name << ": " << std::fixed << std::setprecision(1) << result.seconds << " s, " << std::setprecision(2)
       << static_cast<double>(result.peak_bytes) / (1 << 30) << " GiB at most\n";

@@ -12,7 +12,7 @@ namespace plumb::command {
 void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
                    bool times);
 
-/// Only what is weak, as the solvers and measures say it.
-void print_weak(std::ostream& out, const RunResult& result);
+/// Only what is weak, as the solvers and measures say it; with `warnings` what was said while they ran, too.
+void print_weak(std::ostream& out, const RunResult& result, bool warnings);
 
 }  // namespace plumb::command

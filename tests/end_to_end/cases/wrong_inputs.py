@@ -274,6 +274,21 @@ def test_two_segments_that_do_not_overlap_are_said_and_gone_on_with(folder):
     assert fates[1, 2] == "no matches" and fates[0, 1] == "kept", fates
 
 
+def test_odometry_in_millimetres_ends_in_one_verdict_with_the_likely_causes(folder):
+    s = copy_of("street", folder, frames=24)
+    def stretch(lines):
+        rows = [line.split() for line in lines]
+        return [" ".join([r[0], *(str(1000 * float(v)) for v in r[1:4]), *r[4:]]) for r in rows]
+    change_lines(s / "odometry.tum", stretch)
+    said = plumb("run", CASCADE, "--set", f"input={s}", "--set", "ranges.frames=3", "-o", folder / "out", "--log", folder / "log")
+    weak = [line for line in said.out.splitlines() if line.startswith("weak:")]
+    assert "not held by the clouds" in weak[0] and "not in metres" in weak[0], said
+    assert len(weak) <= 6, said
+    overlap = "follow each other but do not overlap"
+    assert said.err.count(overlap) == 3, said
+    assert (folder / "log").read_text().count(overlap) > 3
+
+
 def test_no_loop_found_is_said_and_gone_on_with(folder):
     straight = sequence("straight")
     said = plumb("run", CASCADE, "--set", f"input={straight}", "--set", "ranges.frames=5", "-o", folder / "out")
