@@ -159,10 +159,15 @@ TEST(Evaluation, RefusesWrongInputsWithASentence) {
   EXPECT_THAT(said(), AllOf(HasSubstr("no truth.tum"), HasSubstr("--truth")));
   folder.write("truth.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   EXPECT_THAT(said(), AllOf(HasSubstr("a.tum"), HasSubstr("No such file")));
+  folder.write("a.tum", "ply\nformat binary_little_endian 1.0\n");
+  EXPECT_THAT(said(), HasSubstr("a.tum: is no TUM trajectory, it looks like a point cloud (PLY): give a text file"));
   folder.write("a.tum", "100 0 0 0 0 0 0 1\n");
   EXPECT_THAT(said(), AllOf(HasSubstr("a.tum"), HasSubstr("none of its stamps")));
   folder.write("frames/0.pcd", pcd_bytes({}));
+  folder.write("a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   EXPECT_THAT(said(true), HasSubstr("1 frames for 2 true poses"));
+  folder.write("frames.txt", "frames/0.pcd\nframes/1.pcd\n");
+  EXPECT_THAT(said(true), HasSubstr("frames.txt:2: frame 'frames/1.pcd' is missing"));
 }
 
 TEST(Ghosting, QuantilesLieLinearlyBetweenNeighbours) {

@@ -112,6 +112,14 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
   EXPECT_THAT(said(first + "2 nan 0 0 0 0 0 1\n"), HasSubstr("'nan'"));
   EXPECT_THAT(said(first + "2 1,5 0 0 0 0 0 1\n"), HasSubstr("'1,5'"));
   EXPECT_THAT(said("# nothing\n"), HasSubstr("no pose"));
+  for (const auto& [text, kind] : {std::pair<std::string, std::string>{"ply\nformat ascii 1.0\n", "a point cloud (PLY)"},
+                                   {"# .PCD v0.7\nVERSION 0.7\n", "a point cloud (PCD)"},
+                                   {"1 0 0 0 0 1 0 0 0 0 1 0\n", "a trajectory (KITTI)"},
+                                   {"# g\nVERTEX_SE2 0 0 0 0\n", "a pose graph (g2o)"},
+                                   {"plumb: 1\n", "a pipeline"},
+                                   {"{\"stages\": []}", "JSON"},
+                                   {std::string("\x01\0\x02", 3), "binary data"}})
+    EXPECT_THAT(said(text), AllOf(HasSubstr("is no TUM trajectory, it looks like " + kind), HasSubstr("stamp tx ty tz")));
   EXPECT_THAT(refusal([&] { read_tum(folder.path() / "none.tum"); }), HasSubstr("No such file"));
 
   const auto poses = folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");

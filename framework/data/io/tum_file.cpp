@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "plumb/data/io/file_kind.hpp"
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/data/io/trajectory_text.hpp"
@@ -14,6 +15,10 @@ using namespace io;
 
 Trajectory read_tum(const std::filesystem::path& file) {
   const FileBytes bytes(file);
+  const std::string kind = kind_of_content(bytes.view());
+  if (!kind.empty() && kind != "a trajectory (TUM)" && kind != "lines of numbers")
+    refuse(file, "is no TUM trajectory, it looks like " + kind +
+                     ": give a text file with a line 'stamp tx ty tz qx qy qz qw' for each pose, as a run's trajectory.tum");
   Lines lines(bytes.view());
   Trajectory result;
   std::array<double, 8> v;
