@@ -24,17 +24,13 @@ class RunCollection final : public Collection {
 
 }  // namespace
 
-std::size_t StepRun::first_frame(std::size_t k) const {
+/// The frames that segment k is made of.
+std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k) const {
   for (std::size_t p = 0; p < inputs_.size(); ++p)
-    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>())
-      return inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>()->first;
-  throw Error("has frames but no ranges");
-}
-
-std::size_t StepRun::end_frame(std::size_t k) const {
-  for (std::size_t p = 0; p < inputs_.size(); ++p)
-    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>())
-      return inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>()->end;
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>()) {
+      const auto range = inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>();
+      return {range->first, range->end};
+    }
   throw Error("has frames but no ranges");
 }
 
@@ -55,9 +51,7 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
       add(source.run->key(source.output, edges_->list[k].j));
       break;
     case Access::each: {
-      const bool own_frames = itemwise();
-      const std::size_t first = own_frames ? first_frame(k) : 0;
-      const std::size_t end = own_frames ? end_frame(k) : source.run->count(source.output);
+      const auto [first, end] = itemwise() ? frames_of(k) : std::pair(std::size_t{0}, source.run->count(source.output));
       add_number(end - first);
       for (std::size_t n = first; n < end; ++n) add(source.run->key(source.output, n));
       if (source.run->edges()) add(content_hash(*source.run->edges()));
@@ -102,10 +96,11 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
         port.one = source.run->value(source.output, edges_->list[k].i);
         port.other = source.run->value(source.output, edges_->list[k].j);
         break;
-      case Access::each:
-        port.each = itemwise() ? std::make_shared<RunCollection>(source, first_frame(k), end_frame(k))
-                               : std::make_shared<RunCollection>(source, 0, source.run->count(source.output));
+      case Access::each: {
+        const auto [first, end] = itemwise() ? frames_of(k) : std::pair(std::size_t{0}, source.run->count(source.output));
+        port.each = std::make_shared<RunCollection>(source, first, end);
         break;
+      }
       case Access::several:
         for (const Source& one : inputs_[p]) port.several.emplace_back(one.label, one.run->value(one.output));
         break;

@@ -63,8 +63,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
   void find_items();
   void start_whole();
-  std::size_t first_frame(std::size_t k) const;
-  std::size_t end_frame(std::size_t k) const;
+  std::pair<std::size_t, std::size_t> frames_of(std::size_t k) const;
   std::string item_name(std::size_t k) const;
   std::vector<PortOutput> call(std::size_t k);
   std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;

@@ -2,21 +2,11 @@
 
 #include <algorithm>
 
+#include "plumb/pipeline/parts.hpp"
 #include "plumb/pipeline/value.hpp"
 
 namespace plumb::pipeline {
 namespace {
-
-std::vector<std::string> parts_of(const std::string& path, char between) {
-  std::vector<std::string> parts(1);
-  for (const char c : path) {
-    if (c == between)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
 
 const std::vector<std::string> repeat_settings = {"at_least", "at_most", "if_exhausted"};
 
@@ -29,7 +19,7 @@ class Finder {
   /// The map of steps that holds the last name of `path`, which need not be there if `fresh`; null
   /// with a diagnostic.
   Node* scope(const std::string& path, bool fresh) {
-    const auto parts = parts_of(path, '.');
+    const auto parts = parts_of(path);
     Node* steps = pipeline_.at("steps");
     for (std::size_t k = 0; k < parts.size(); ++k) {
       if (!steps || !steps->is_map()) return lost(path, parts, k, {});
@@ -45,7 +35,7 @@ class Finder {
   /// Puts a value at a parameter, a row or a step's parameter. Text of the command line is cut at
   /// commas for a row.
   void set(const std::string& path, Node value, bool cut) {
-    const auto parts = parts_of(path, '.');
+    const auto parts = parts_of(path);
     if (parts.size() == 1) return set_parameter(path, std::move(value));
     std::vector<std::string> rows;  // of the repeats that are passed, each with its path
     Node* steps = pipeline_.at("steps");

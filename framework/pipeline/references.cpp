@@ -2,20 +2,10 @@
 #include <algorithm>
 
 #include "plumb/pipeline/draft.hpp"
+#include "plumb/pipeline/parts.hpp"
 
 namespace plumb::pipeline {
 namespace {
-
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == '.')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
 
 std::vector<std::string> names_in(const Draft& draft, int scope, bool outwards) {
   std::vector<std::string> names;

@@ -12,25 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that frames.txt lists, or else those in frames/, by name.
-std::vector<fs::path> frames_of(const fs::path& sequence) {
-  std::vector<fs::path> frames;
-  if (const auto list = sequence / "frames.txt"; fs::exists(list)) {
-    const io::FileBytes bytes(list);
-    io::Lines lines(bytes.view());
-    for (std::string_view line; lines.next(line);) {
-      const auto first = line.find_first_not_of(" \t");
-      if (first == std::string_view::npos || line[first] == '#') continue;
-      line = line.substr(first, line.find_last_not_of(" \t") + 1 - first);
-      frames.push_back((sequence / line).lexically_normal());
-    }
-    return frames;
-  }
-  for (auto& file : io::files_in(sequence / "frames", {".pcd", ".ply"}))
-    frames.push_back(std::move(file.path));
-  return frames;
-}
-
 TrajectoryScore score(const fs::path& file, const Trajectory& truth,
                       const std::vector<fs::path>* frames) {
   const PosePairs pairs = pair_by_stamp(read_tum(file), truth);
@@ -54,7 +35,7 @@ Evaluation evaluate(const EvaluationInput& input) {
   const Trajectory truth = read_tum(truth_file);
   std::vector<fs::path> frames;
   if (input.clouds) {
-    frames = frames_of(input.sequence);
+    for (auto& file : io::sequence_frames(input.sequence)) frames.push_back(std::move(file.path));
     if (frames.size() < truth.size())
       io::refuse(input.sequence,
                  "has " + std::to_string(frames.size()) + " frames for " +

@@ -29,6 +29,43 @@ std::vector<FrameFile> files_in(const fs::path& folder, const std::vector<std::s
   return files;
 }
 
+namespace {
+
+std::vector<FrameFile> listed_in(const fs::path& list, const fs::path& folder) {
+  const FileBytes bytes(list);
+  Lines lines(bytes.view());
+  std::vector<FrameFile> files;
+  for (std::string_view line; lines.next(line);) {
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    if (line.empty() || line.front() == '#') continue;
+    const std::string name(line);
+    std::error_code error;
+    if (!fs::is_regular_file(folder / name, error))
+      refuse(list, lines.number(),
+             "frame " + in_quotes(name) +
+                 " is missing: paths are relative to the folder that holds the list");
+    files.push_back({folder / name, name});
+  }
+  if (files.empty()) refuse(list, "lists no frame: write one path a line");
+  return files;
+}
+
+}  // namespace
+
+std::vector<FrameFile> sequence_frames(const fs::path& folder) {
+  require_folder(folder, "give a folder with frames/*.pcd or frames.txt, and odometry.tum");
+  std::error_code error;
+  const fs::path list = folder / "frames.txt", frames = folder / "frames";
+  if (fs::exists(list, error)) return listed_in(list, folder);
+  auto files = fs::is_directory(frames, error) ? files_in(frames, {".pcd", ".ply"}, "frames/")
+                                               : std::vector<FrameFile>();
+  if (files.empty())
+    refuse(folder,
+           "has no frames: expected frames/*.pcd or *.ply, or a list of them in frames.txt");
+  return files;
+}
+
 Hash128 key_of(const FrameFile& file) {
   struct stat status;
   if (::stat(file.path.c_str(), &status) != 0)

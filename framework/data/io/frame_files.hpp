@@ -23,6 +23,12 @@ std::vector<FrameFile> files_in(const std::filesystem::path& folder,
                                 const std::vector<std::string>& extensions,
                                 const std::string& prefix = "");
 
+/// The frames of a sequence's folder in order: those that frames.txt lists (one path a line, relative to
+/// the folder; blank lines and lines that begin with # are skipped), or, without that file,
+/// frames/*.pcd and *.ply by name. Throws Error: no such folder, no frame in it, a listed frame
+/// that is missing (with the line).
+std::vector<FrameFile> sequence_frames(const std::filesystem::path& folder);
+
 /// A key that changes when the file does: hash of its name, size and time of change [ns]. Throws
 /// Error when it is no file.
 Hash128 key_of(const FrameFile& file);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/cloud_file.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
 

@@ -1,6 +1,8 @@
 #include <memory>
 #include <optional>
 
+#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/data/io/frame_files.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 #include "sequence_folder.hpp"
@@ -41,7 +43,7 @@ struct Sequence : WholeStep {
   }
 
   Out run(const In&, const Params& params, Context&) const {
-    auto files = frames_of(params.path);
+    auto files = io::sequence_frames(params.path);
     const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
     auto trajectory = std::make_shared<const Trajectory>(read_tum(poses_from));
     io::require_pose_each(params.path, files.size(), poses_from, trajectory->size());
