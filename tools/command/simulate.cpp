@@ -52,10 +52,11 @@ void refuse_no_scene(const Arguments& arguments) {
 }
 
 bool is_indoor(const Arguments& arguments) {
+  if (is_one_of(simulate::indoor_names(), arguments.scene)) return true;
+  if (is_one_of(simulate::route_names(), arguments.scene)) return false;
   if (const auto path = arguments.options.find("path"); path != arguments.options.end())
     return is_one_of(simulate::indoor_names(), path->second);
-  if (arguments.scene.empty() || is_one_of(simulate::route_names(), arguments.scene)) return false;
-  if (is_one_of(simulate::indoor_names(), arguments.scene)) return true;
+  if (arguments.scene.empty()) return false;
   refuse_no_scene(arguments);
   return simulate::is_indoor_scene(arguments.scene);
 }
@@ -67,8 +68,7 @@ void refuse_others(const Arguments& arguments, const std::vector<simulate::Optio
   std::string known;
   for (const auto& option : options) known += std::string(known.empty() ? "" : ", ") + option.key;
   for (const auto& [key, text] : arguments.options)
-    if (known.find(key) == std::string::npos ||
-        std::none_of(options.begin(), options.end(), [&](const auto& o) { return key == o.key; }))
+    if (std::none_of(options.begin(), options.end(), [&](const auto& o) { return key == o.key; }))
       throw Error("--" + key + ": " + kind + " has no such option; its options are " + known);
 }
 
