@@ -17,6 +17,7 @@ namespace plumb {
 struct Neighbourhood {
   std::optional<double> radius;
   std::optional<std::uint32_t> most;
+  bool planar = false;  ///< the cloud lies in a plane z = const: normals of lines in it, by line_normal
 };
 
 /// Writes nx, ny, nz of `cloud`: unit normals that point to the half space of `origin(k)`, where
@@ -31,5 +32,10 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
 /// zero if there are fewer than 3 or they lie on one line. Coordinates should be small (taken from
 /// a point nearby), so that the sums keep their digits.
 Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count);
+
+/// The same in the plane: the unit normal, with z = 0, of the line that fits the points' x and y best.
+/// Zero if there are fewer than 3, or if they make no line: across it they spread more than
+/// 0.4 times as far (standard deviations) as along it, as at a corner or in clutter.
+Eigen::Vector3f line_normal(const Eigen::Vector3f* points, std::size_t count);
 
 }  // namespace plumb

@@ -14,6 +14,7 @@ struct EstimateNormals : SegmentStep {
   struct Params {
     std::optional<double> radius = 1.0;
     std::optional<std::uint32_t> neighbours = 30;
+    bool planar = false;
     std::string check() const {
       return radius || neighbours ? ""
                                   : "'radius' and 'neighbours' are both none; give one of them";
@@ -36,13 +37,15 @@ struct EstimateNormals : SegmentStep {
         .range(3, 1000)
         .doc(
             "at most so many, the nearest, the point itself included; none: all within the radius");
+    is.param("planar", &Params::planar)
+        .doc("the clouds are a 2-D laser's: normals of lines in the plane, (0, 0, 0) at corners");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment& segment = *in.segment;
     Cloud cloud = segment.cloud;
     const std::size_t without = estimate_normals(
-        cloud, segment.tree(), {params.radius, params.neighbours},
+        cloud, segment.tree(), {params.radius, params.neighbours, params.planar},
         [&](std::size_t k) { return segment.origin(k); }, context);
     if (without > 0) context.count("points without a normal", without);
     return {segment.with(std::move(cloud), segment.frame)};

@@ -1,0 +1,50 @@
+#pragma once
+/// The pose in a window that lays points best onto a likelihood field: every pose of a grid is
+/// judged, by branch and bound. Sources: [Olson2009], [Hess2016].
+
+#include <optional>
+#include <vector>
+
+#include "plumb/geometry/likelihood_field.hpp"
+#include "plumb/geometry/planar.hpp"
+
+namespace plumb {
+
+/// Where to look: `centre` +- the half widths [m], [rad].
+struct SearchWindow {
+  PlanarPose centre;
+  double x = 0.5, y = 0.5, yaw = 0.3;
+};
+
+/// Poses that are not looked at: those nearer than `distance` [m] and `yaw` [rad] to `pose`.
+struct Excluded {
+  PlanarPose pose;
+  double distance = 0, yaw = 0;
+};
+
+struct Peak {
+  PlanarPose pose;   ///< lays the points onto the field
+  double score = 0;  ///< mean value of the points' cells, 0 to 1
+};
+
+/// The best pose of the window's grid (one cell in x and y, `yaw_step` [rad] in yaw) whose score is
+/// above `least`; none if there is none. Exact: the same as trying each. Of equal ones the first in the
+/// order of yaw, y, x counts.
+std::optional<Peak> best_pose(const LikelihoodField& field, const std::vector<float>& x,
+                              const std::vector<float>& y, const SearchWindow& window,
+                              double yaw_step, double least,
+                              const std::optional<Excluded>& excluded = {});
+
+/// Mean value of the points' cells under a pose, 0 to 1.
+double score_of(const LikelihoodField& field, const std::vector<float>& x,
+                const std::vector<float>& y, const PlanarPose& pose);
+
+/// `peak` moved by less than half a cell, to the tops of the parabolas through the scores of its
+/// neighbours in x, y and yaw.
+PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
+                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step);
+
+/// The step of yaw [rad] that moves nine of ten of the points by at most a cell.
+double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, double resolution);
+
+}  // namespace plumb

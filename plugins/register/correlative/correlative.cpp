@@ -1,0 +1,54 @@
+#include "correlative.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+struct Places {
+  std::vector<float> x, y;
+};
+
+Places within_range(const Cloud& cloud, double range) {
+  Places near;
+  const auto square = static_cast<float>(range * range);
+  for (std::size_t k = 0; k < cloud.size(); ++k)
+    if (cloud.x[k] * cloud.x[k] + cloud.y[k] * cloud.y[k] < square)
+      near.x.push_back(cloud.x[k]), near.y.push_back(cloud.y[k]);
+  return near;
+}
+
+}  // namespace
+
+CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
+                            const CorrelativeOptions& options) {
+  CorrelativeResult result;
+  result.T = start;
+  const Places onto = within_range(target, options.range), laid = within_range(source, options.range);
+  if (onto.x.empty() || laid.x.empty()) return result;
+
+  // Where the peak is, to a cell. No penalty for being far from the start: the window says what can be.
+  constexpr int levels = 5;
+  const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma, levels);
+  const double step = yaw_step_for(laid.x, laid.y, options.resolution);
+  auto peak = best_pose(coarse, laid.x, laid.y, {start, options.reach, options.reach, options.turn}, step, 0);
+  if (!peak || peak->score < options.retry_below) {
+    result.retried = true;
+    const auto wider = best_pose(coarse, laid.x, laid.y, {start, options.retry_reach, options.retry_reach, M_PI},
+                                 step, peak ? peak->score : 0);
+    if (wider) peak = wider;
+  }
+  if (!peak) return result;
+  result.score = peak->score;
+
+  const LikelihoodField fine(onto.x, onto.y, options.fine_resolution, options.fine_sigma,
+                             3 * options.fine_sigma, 3);
+  result.yaw_step = std::min(yaw_step_for(laid.x, laid.y, options.fine_resolution), step);
+  const double room = 1.2 * options.resolution;
+  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step}, result.yaw_step, 0);
+  result.T = best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step) : peak->pose;
+  return result;
+}
+
+}  // namespace plumb
