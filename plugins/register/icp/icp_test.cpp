@@ -97,7 +97,7 @@ TEST(Icp, KnowsThatACorridorSaysNothingAboutTheWayAlongIt) {
   options.metric = Metric::line;
   options.hold = 0.02;
   const auto found = lay_onto(corridor, tree, corridor, {0.3, 0.05, 0}, options);
-  EXPECT_NEAR(found.T.y, 0, 1e-3);
+  EXPECT_NEAR(found.T.y, 0, 4e-3);  // the hold draws it back by 0.05 m * 2500 / (2500 + 44700)
   EXPECT_NEAR(found.T.x, 0.3, 1e-6);
   EXPECT_LT(found.information(0, 0), 1e-6 * found.information(1, 1));
 }
@@ -107,7 +107,9 @@ TEST(Icp, LeavesThePoseWhereThereIsNothingToPair) {
   for (int k = 0; k < 10; ++k) near.add({0.1f * k, 0, 0}), far.add({100 + 0.1f * k, 0, 0});
   const SearchTree tree(near);
   const auto found = lay_onto(near, tree, far, {1, 2, 0.5}, {});
-  EXPECT_EQ(found.T.x, 1), EXPECT_EQ(found.T.yaw, 0.5), EXPECT_EQ(found.overlap, 0);
+  EXPECT_EQ(found.T.x, 1);
+  EXPECT_EQ(found.T.yaw, 0.5);
+  EXPECT_EQ(found.overlap, 0);
 }
 
 Segment segment_of(const Cloud& cloud) {
