@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "displacement.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/data/trajectory_error.hpp"
 #include "plumb/plugin/module.hpp"
@@ -22,11 +23,12 @@ struct MeasureTrajectory : WholeStep {
 
   static void describe(Declaration<MeasureTrajectory>& is) {
     is.name("measure.trajectory")
-        .version(1)
+        .version(2)
         .summary("Measures the absolute and relative error of trajectories against a true one.")
         .source("Sturm et al. 2012");
     is.input("trajectories", &In::trajectories, "any number of trajectories; numbers are named after the label");
-    is.output("metrics", &Out::metrics, "for each trajectory ate, ate_max, rpe_translation, rpe_rotation");
+    is.output("metrics", &Out::metrics, 
+              "for each trajectory ate, ate_max, rpe_translation, rpe_rotation, displacement_x, displacement_y");
     is.param("truth", &Params::truth).doc("TUM file with the true poses; none: a note, and no numbers");
     is.param("tolerance", &Params::tolerance).unit("s").range(1e-9, 10)
         .doc("poses whose stamps differ by less belong together");
@@ -54,10 +56,13 @@ struct MeasureTrajectory : WholeStep {
       }
       const auto absolute = absolute_error(pairs);
       const auto relative = relative_error(pairs, params.over);
+      const auto displacement = mean_displacement(pairs);
       out.metrics.add(of + "ate", absolute.rmse, "m")
           .add(of + "ate_max", absolute.max, "m")
           .add(of + "rpe_translation", relative.translation, "m")
-          .add(of + "rpe_rotation", relative.rotation, "rad");
+          .add(of + "rpe_rotation", relative.rotation, "rad")
+          .add(of + "displacement_x", displacement.x(), "m")
+          .add(of + "displacement_y", displacement.y(), "m");
     }
     return out;
   }

@@ -52,7 +52,7 @@ TEST_F(MeasureTrajectoryTest, FindsNoErrorInAMovedTruth) {
   const Pose motion(exp_rotation({0.3, 0.2, -1}), {100, 200, 5});
   for (auto& pose : moved.T_world_frame) pose = motion * pose;
   const auto metrics = measured({{"", moved}});
-  ASSERT_EQ(metrics.numbers.size(), 4u);
+  ASSERT_EQ(metrics.numbers.size(), 6u);
   EXPECT_EQ(metrics.numbers[0].name, "ate");
   for (const auto& number : metrics.numbers) EXPECT_NEAR(number.value, 0, 1e-6) << number.name;
 }
@@ -61,11 +61,27 @@ TEST_F(MeasureTrajectoryTest, NamesNumbersByTheirLabels) {
   auto bent = curve(50);
   for (auto& pose : bent.T_world_frame) pose.translation.y() += 0.001 * pose.translation.x() * pose.translation.x();
   const auto metrics = measured({{"before", bent}, {"after", curve(50)}});
-  ASSERT_EQ(metrics.numbers.size(), 8u);
+  ASSERT_EQ(metrics.numbers.size(), 12u);
   EXPECT_EQ(metrics.numbers[0].name, "before.ate");
-  EXPECT_EQ(metrics.numbers[4].name, "after.ate");
+  EXPECT_EQ(metrics.numbers[6].name, "after.ate");
   EXPECT_GT(metrics.numbers[0].value, 0.1);
-  EXPECT_LT(metrics.numbers[4].value, 1e-6);
+  EXPECT_LT(metrics.numbers[6].value, 1e-6);
+}
+
+TEST_F(MeasureTrajectoryTest, GivesTheDisplacementAlongTheTruthsAxesFromTheFirstPoseOn) {
+  // Seen from the first pose the k-th position lies k * 1 mm too far along x and k * 2 mm too little along y.
+  auto bent = curve(50);
+  const Pose motion(exp_rotation({0, 0, -2}), {30, -20, 0});
+  for (std::size_t k = 0; k < 50; ++k) {
+    const double s = static_cast<double>(k);
+    bent.T_world_frame[k].translation += Eigen::Vector3d(0.001 * s, -0.002 * s, 0.5 * s);
+    bent.T_world_frame[k] = motion * bent.T_world_frame[k];
+  }
+  const auto metrics = measured({{"", bent}});
+  EXPECT_EQ(metrics.numbers[4].name, "displacement_x");
+  EXPECT_NEAR(metrics.numbers[4].value, 0.001 * 24.5, 1e-6);
+  EXPECT_EQ(metrics.numbers[5].name, "displacement_y");
+  EXPECT_NEAR(metrics.numbers[5].value, 0.002 * 24.5, 1e-6);
 }
 
 TEST_F(MeasureTrajectoryTest, SaysThatThereIsNoTruth) {

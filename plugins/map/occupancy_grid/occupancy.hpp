@@ -1,0 +1,43 @@
+#pragma once
+/// Occupancy of a plane from laser scans whose poses are known. Source: [Moravec1985], [Thrun2005] ch. 9.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "plumb/data/values.hpp"
+
+namespace plumb {
+
+/// A scan in world coordinates [m].
+struct PlacedScan {
+  Eigen::Vector2d from;              ///< the sensor
+  std::vector<Eigen::Vector2d> hits;
+};
+
+/// The points of `cloud` by its sensor's pose, seen from above.
+PlacedScan placed(const Cloud& cloud, const Pose& T_world_sensor);
+
+struct GridOptions {
+  double resolution = 0.05;  ///< edge of a cell [m]
+  double hit = 0.85;         ///< added to the log odds of a cell with a hit
+  double miss = 0.4;         ///< taken off the log odds of a cell that a ray passes
+  double lowest = -2;        ///< log odds stay from here
+  double highest = 3.5;      ///< to here
+  double max_range = 30;     ///< a ray that ends farther away only clears its way up to here [m]
+  std::size_t most_cells = 400'000'000;
+
+  std::string check() const {
+    return lowest < 0 && highest > 0 ? "" : "lowest must be below 0 and highest above 0, since 0 means not seen";
+  }
+};
+
+/// Runs body(k) for k = 0 .. n-1, in any order.
+using ParallelLoop = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
+
+/// The map of all scans, taken in their order. In each scan a cell counts once: as hit if any ray ends in it, else as
+/// missed if any ray passes it. A cell that was seen is never 0. The same bytes for any number of threads. Without
+/// scans an empty map. Throws Error: more than `most_cells`, a place that is no number.
+GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options, const ParallelLoop& parallel);
+
+}  // namespace plumb

@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include "occupancy.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct OccupancyGrid : WholeStep {
+  struct In {
+    Each<Frame> frames;
+    One<Trajectory> trajectory;
+  };
+  struct Out {
+    GridMap map;
+  };
+  using Params = GridOptions;
+
+  static void describe(Declaration<OccupancyGrid>& is) {
+    is.name("map.occupancy_grid").version(1).source("[Zhang2023] 2");
+    is.summary("Draws the plane that 2-D scans saw: free and occupied cells, by casting all rays.");
+    is.input("frames", &In::frames, "the scans");
+    is.input("trajectory", &In::trajectory, "the sensor's pose for each");
+    is.output("map", &Out::map, "log odds of each cell; 0: never seen");
+    is.param("resolution", &Params::resolution).unit("m").range(0.001, 10).doc("edge length of a cell");
+    is.param("hit", &Params::hit).range(1e-3, 10).doc("log odds that a scan adds to a cell in which a ray ends");
+    is.param("miss", &Params::miss).range(1e-3, 10).doc("log odds that a scan takes off a cell that rays only pass");
+    is.param("lowest", &Params::lowest).range(-100, 0).doc("log odds do not fall below: how long a cell remembers that it was free");
+    is.param("highest", &Params::highest).range(0, 100).doc("log odds do not rise above: how long a cell remembers that it was occupied");
+    is.param("max_range", &Params::max_range).unit("m").range(0.1, 1000)
+        .doc("a ray that ends farther away is no hit and only clears its way up to here");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    const std::size_t frames = in.frames.size();
+    if (frames != in.trajectory->size())
+      throw Error("there are " + std::to_string(frames) + " frames but " + std::to_string(in.trajectory->size()) +
+                  " poses in the trajectory; wire the trajectory of these frames");
+    std::vector<PlacedScan> scans(frames);
+    context.parallel(frames, [&](std::size_t k) {
+      scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);
+    });
+    Out out{occupancy(scans, params, [&](std::size_t n, const auto& body) { context.parallel(n, body); })};
+    const auto seen = [&](auto test) {
+      return static_cast<std::uint64_t>(std::ranges::count_if(out.map.log_odds, test));
+    };
+    context.count("cells occupied", seen([](float v) { return v > 0; }));
+    context.count("cells free", seen([](float v) { return v < 0; }));
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::OccupancyGrid)
