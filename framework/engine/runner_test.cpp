@@ -122,6 +122,32 @@ TEST_F(Engine, NamesTheStepAndTheFirstItemThatFails) {
   }
 }
 
+const char* const stitched = R"(plumb: 1
+steps:
+  source: {use: test.source}
+  pieces: {use: test.merge, from: {frames: source.frames, ranges: source.ranges}}
+  edges: {use: test.chain, from: pieces}
+  groups: {use: test.stitch, from: pieces}
+  laid: {use: test.lay, from: {edges: edges, targets: groups, sources: pieces}}
+  solved: {use: test.halve, from: {matches: laid, poses: source.poses}}
+  out: {use: test.write, from: {metrics: solved.metrics}}
+)";
+
+TEST_F(Engine, TakesManyValuesTogetherWithTheItemsThatTheyBelongTo) {
+  // First points of the pieces: 0, 3, 6, 9; of the groups: 0, 0, 3, 6. Edges 0-1, 1-2, 2-3.
+  EXPECT_THAT(run(stitched).documents[0].document->bytes, HasSubstr("gap=15"));
+}
+
+TEST_F(Engine, RefusesManyValuesThatAreFewerThanTheirItems) {
+  try {
+    run(stitched, {"groups.lose=true"});
+    FAIL() << "was not refused";
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "step 'groups' (test.stitch): its output 'groups' has 3 values where its input 'segments' has 4; "
+                           "the step must give one for each");
+  }
+}
+
 TEST_F(Engine, ChangedRowsReachTheirSteps) {
   EXPECT_THAT(run(cascade, {"loop.gate=7m,5m"}).documents[0].document->bytes, HasSubstr("gap=36 gates=15"));
 }

@@ -60,6 +60,7 @@ void StepRun::start_whole() {
   }
   whole_keys_.resize(whole_.size());
   for (std::size_t o = 0; o < whole_.size(); ++o) {
+    check_items(o);
     const Type& type = *outputs[o].type;
     if (outputs[o].emission == Emission::one) whole_keys_[o] = {type.hash(whole_[o].one.value.get())};
     for (const AnyValue& value : whole_[o].many) whole_keys_[o].push_back(type.hash(value.value.get()));
@@ -67,6 +68,23 @@ void StepRun::start_whole() {
     asked_.push_back(std::make_unique<std::atomic<bool>[]>(whole_[o].lazy.keys.size()));
   }
   inputs_.clear();  // lets go of what came before
+}
+
+/// Many values that belong to the items of an input must be as many.
+void StepRun::check_items(std::size_t output) {
+  const OutputDescription& port = plan_.description->outputs[output];
+  if (port.over.empty()) return;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    if (plan_.description->inputs[p].name != port.over || inputs_[p].empty()) continue;
+    const Source& source = inputs_[p].front();
+    const std::size_t items = source.run->count(source.output);
+    const std::size_t made = whole_[output].many.size() + whole_[output].lazy.keys.size();
+    if (made != items)
+      throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" + port.name + "' has " +
+                  std::to_string(made) + " values where its input '" + port.over + "' has " + std::to_string(items) +
+                  "; the step must give one for each");
+    if (port.type->grain == Grain::edge) edges_ = source.run->edges();
+  }
 }
 
 void StepRun::start() {

@@ -63,6 +63,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
   void find_items();
   void start_whole();
+  void check_items(std::size_t output);
   std::pair<std::size_t, std::size_t> frames_of(std::size_t k) const;
   std::string item_name(std::size_t k) const;
   std::vector<PortOutput> call(std::size_t k);

@@ -113,6 +113,46 @@ struct Pair : EdgeStep {
   }
 };
 
+/// To each segment the points of the one before it; `lose` leaves out the last group.
+struct Stitch : WholeStep {
+  struct In { Each<Segment> segments; };
+  struct Params { bool lose = false; };
+  struct Out { std::vector<Segment> groups; };
+  static void describe(Declaration<Stitch>& is) {
+    is.name("test.stitch").version(1).summary("Stitches.").source("");
+    is.param("lose", &Params::lose).doc("leave out the last");
+    is.input("segments", &In::segments, "").output("groups", &Out::groups, "").over("segments");
+  }
+  Out run(const In& in, const Params& params, Context&) const {
+    Out out;
+    for (std::size_t k = 0; k + params.lose < in.segments.size(); ++k) {
+      const auto piece = in.segments.open(k);
+      Cloud cloud;
+      if (k > 0) cloud.add(in.segments.open(k - 1)->cloud.point(0));
+      cloud.add(piece->cloud.point(0));
+      out.groups.push_back(piece->with(cloud, std::vector<std::uint16_t>(cloud.size(), 0)));
+    }
+    return out;
+  }
+};
+
+/// How far i's first target lies from j's first source.
+struct Lay : EdgeStep {
+  struct In { OverEdges edges; Ends<Segment> targets, sources; };
+  struct Params {};
+  struct Out { Matches matches; };
+  static void describe(Declaration<Lay>& is) {
+    is.name("test.lay").version(1).summary("Lays clouds on clouds.").source("");
+    is.input("edges", &In::edges, "").input("targets", &In::targets, "").input("sources", &In::sources, "");
+    is.output("matches", &Out::matches, "");
+  }
+  Out run(const In& in, const Params&, Context&) const {
+    Matches matches;
+    matches.weight = {(in.targets.i->cloud.point(0) - in.sources.j->cloud.point(0)).norm(), 0};
+    return {matches};
+  }
+};
+
 /// Sees T_i_j: made anew when poses change.
 struct Shift : EdgeStep {
   struct In { One<Matches> matches; Relative poses; ThisEdge edge; };
@@ -205,12 +245,14 @@ inline Registry registry() {
   static const StepOf<Merge> merge;
   static const StepOf<Chain> chain;
   static const StepOf<Pair> pair;
+  static const StepOf<Stitch> stitch;
+  static const StepOf<Lay> lay;
   static const StepOf<Shift> shift;
   static const StepOf<Halve> halve;
   static const StepOf<Write> write;
   static const StepOf<Sum> sum;
   Registry registry;
-  for (const Step* step : std::initializer_list<const Step*>{&source, &keep, &merge, &chain, &pair, &shift, &halve,
+  for (const Step* step : std::initializer_list<const Step*>{&source, &keep, &merge, &chain, &pair, &stitch, &lay, &shift, &halve,
                                                              &write, &sum})
     registry.add(*step);
   return registry;

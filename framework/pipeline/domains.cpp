@@ -42,14 +42,8 @@ class Domains {
             agree(index, edges, wire.step, input.name, wire);
           continue;
         }
-        if (wire.step < 0) continue;  // carried values are whole
-        const PlannedStep& source = draft_.plan.steps[wire.step];
-        const OutputDescription& output = source.description->outputs[wire.output];
-        const bool origin = output.emission != Emission::one;
-        const bool whole = !origin && (source.description->kind == StepKind::whole ||
-                                       source.description->kind == StepKind::fold);
-        const int domain = origin ? wire.step : source.domain;
-        if (whole || domain < 0) continue;
+        const int domain = domain_of(wire);
+        if (domain < 0) continue;
         // A SegmentStep that sees its own frames takes them by the range's indices, not item by
         // item.
         if (input.access == Access::each && step.description->kind == StepKind::segment) continue;
@@ -75,6 +69,20 @@ class Domains {
       case StepKind::whole:
         break;
     }
+  }
+
+  /// The step whose output says which items the values on a wire belong to; -1 for a value of the whole pipeline.
+  int domain_of(const Wire& wire) const {
+    if (wire.step < 0) return -1;  // carried values are whole
+    const PlannedStep& source = draft_.plan.steps[wire.step];
+    const OutputDescription& output = source.description->outputs[wire.output];
+    if (output.emission == Emission::one)
+      return source.description->kind == StepKind::whole || source.description->kind == StepKind::fold ? -1
+                                                                                                       : source.domain;
+    for (std::size_t k = 0; k < source.inputs.size(); ++k)
+      if (source.description->inputs[k].name == output.over && !source.inputs[k].empty())
+        return domain_of(source.inputs[k].front());
+    return wire.step;
   }
 
   void agree(int index, Domain& domain, int step, const std::string& port, const Wire& wire) {

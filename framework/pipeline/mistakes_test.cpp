@@ -252,6 +252,22 @@ TEST(Mistakes, InDomains) {
                                     "'drift.neighbours' and those of 'odd'."));
 }
 
+TEST(Mistakes, InDomainsOfWhatBelongsToOtherItems) {
+  EXPECT_THAT(told(R"(plumb: 1
+steps:
+  sequence: {use: source.sequence, with: {path: .}}
+  ranges: {use: segment.by_count, from: sequence.trajectory}
+  others: {use: segment.by_count, from: sequence.trajectory, with: {frames: 7}}
+  pieces: {use: segment.merge, from: {frames: sequence, ranges: ranges}}
+  small:  {use: segment.merge, from: {frames: sequence, ranges: others}}
+  edges:  {use: edges.overlap, from: {segments: pieces, poses: ranges}}
+  groups: {use: stitch.sliding_window, from: {segments: small, poses: others}}
+  laid:   {use: register.icp, from: {edges: edges, targets: groups, sources: pieces}}
+)"),
+              HasSubstr("step 'laid' (register.icp): its inputs 'targets' and 'sources' belong to "
+                        "different items: those of 'others' and those of 'ranges'."));
+}
+
 TEST(Mistakes, InRepeats) {
   EXPECT_THAT(
       told_with("gate: [4 m, 2 m, 1 m]", "gate: [4 m, 2 m, 1 m]\n        other: [1, 2]"),

@@ -138,6 +138,29 @@ TEST(Reader, SaysWhichItemsAStepHas) {
   EXPECT_EQ(step(plan, "coarse.solved").domain, -1);
 }
 
+const char* const groups_and_pieces = R"(plumb: 1
+steps:
+  sequence: {use: source.sequence, with: {path: x}}
+  ranges:   {use: segment.by_count, from: sequence.trajectory}
+  pieces:   {use: segment.merge, from: {frames: sequence, ranges: ranges}}
+  edges:    {use: edges.overlap, from: {segments: pieces, poses: ranges}}
+  groups:   {use: stitch.sliding_window, from: {segments: pieces, poses: ranges}}
+  laid:     {use: register.icp, from: {edges: edges, targets: groups, sources: pieces}}
+  chained:  {use: apply.chain, from: laid}
+)";
+
+TEST(Reader, GivesManyValuesTheItemsOfTheInputThatTheyBelongTo) {
+  const Plan plan = plan_of(groups_and_pieces, {});
+  EXPECT_EQ(step(plan, "laid").domain, index_of(plan, "edges"));
+  // Groups of groups, and what is made of them one by one, are still of the ranges.
+  std::string text = groups_and_pieces;
+  text += "  again: {use: stitch.sliding_window, from: {segments: groups, poses: ranges}}\n"
+          "  thin: {use: filter.voxel_grid, from: again}\n"
+          "  error: {use: measure.match_rmse, from: {edges: edges, segments: thin, poses: ranges}}\n";
+  const Plan longer = plan_of(text, {});
+  EXPECT_EQ(step(longer, "thin").domain, index_of(longer, "ranges"));
+}
+
 TEST(Reader, OrdersStepsByNeedWhateverOrderTheyAreWrittenIn) {
   const Plan plan = plan_of(cascade);
   EXPECT_THAT(

@@ -1,5 +1,6 @@
 /// The steps that test_steps.hpp offers: they declare ports and parameters like the real ones and
 /// do nothing.
+#include "plumb/data/registration.hpp"
 #include "plumb/pipeline/test_steps.hpp"
 #include "plumb/plugin/declaration.hpp"
 
@@ -295,6 +296,58 @@ struct Rmse : WholeStep {
   Out run(const In&, const Params&, Context&) const { return {}; }
 };
 
+/// Its groups belong to the segments that it takes.
+struct Stitch : WholeStep {
+  struct In {
+    Each<Segment> segments;
+    One<Poses> poses;
+  };
+  struct Out {
+    std::vector<Segment> groups;
+  };
+  struct Params {};
+  static void describe(Declaration<Stitch>& is) {
+    is.name("stitch.sliding_window");
+    is.input("segments", &In::segments, "").input("poses", &In::poses, "");
+    is.output("groups", &Out::groups, "").over("segments");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct Icp : EdgeStep {
+  struct In {
+    OverEdges edges;
+    Ends<Segment> targets, sources;
+  };
+  struct Out {
+    Registration registration;
+  };
+  struct Params {};
+  static void describe(Declaration<Icp>& is) {
+    is.name("register.icp");
+    is.input("edges", &In::edges, "")
+        .input("targets", &In::targets, "")
+        .input("sources", &In::sources, "");
+    is.output("registration", &Out::registration, "");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
+struct ApplyChain : WholeStep {
+  struct In {
+    Each<Registration> registrations;
+  };
+  struct Out {
+    Metrics metrics;
+  };
+  struct Params {};
+  static void describe(Declaration<ApplyChain>& is) {
+    is.name("apply.chain");
+    is.input("registrations", &In::registrations, "").output("metrics", &Out::metrics, "");
+  }
+  Out run(const In&, const Params&, Context&) const { return {}; }
+};
+
 struct WriteTrajectory : WholeStep {
   struct In {
     One<Trajectory> trajectory;
@@ -330,12 +383,15 @@ const Registry& registry() {
   static const StepOf<PruneRansac> ransac;
   static const StepOf<Solve> solve;
   static const StepOf<Rmse> rmse;
+  static const StepOf<Stitch> stitch;
+  static const StepOf<Icp> icp;
+  static const StepOf<ApplyChain> chain;
   static const StepOf<WriteTrajectory> write;
   static const Registry all = [] {
     Registry made;
     for (const Step* step : std::initializer_list<const Step*>{
              &source, &distance, &by_count, &merge, &voxel, &fpfh, &overlap, &edges_union, &mutual,
-             &prune_distance, &kmeans, &ransac, &solve, &rmse, &write})
+             &prune_distance, &kmeans, &ransac, &solve, &rmse, &stitch, &icp, &chain, &write})
       made.add(*step);
     return made;
   }();

@@ -26,7 +26,7 @@ bool matches(const nlohmann::json& value, const std::string& text) {
 TEST(Schema, ListsEveryStepOnce) {
   const auto names = schema()["definitions"]["step"]["properties"]["use"]["enum"];
   EXPECT_EQ(names.size(), test::registry().all().size());
-  EXPECT_EQ(names[0], "describe.fpfh");
+  EXPECT_EQ(names[0], "apply.chain");
 }
 
 TEST(Schema, DescribesParametersWithUnitRangeAndDefault) {

@@ -12,7 +12,8 @@ namespace plumb::test {
 /// Steps named like the real ones, with their ports and parameters: source.sequence,
 /// filter.distance, segment.by_count, segment.merge, filter.voxel_grid, describe.fpfh,
 /// edges.overlap, edges.union, match.fpfh_mutual, prune.distance, prune.kmeans, prune.ransac,
-/// solve.pose_graph, measure.match_rmse, write.trajectory.
+/// solve.pose_graph, measure.match_rmse, stitch.sliding_window, register.icp,
+/// apply.chain, write.trajectory.
 const Registry& registry();
 
 /// A folder of its own for pipelines written in a test, removed afterwards.

@@ -177,8 +177,19 @@ class Declaration {
   template <class M>
   Declaration& output(const char* port, M Out::*member, const char* doc) {
     using Traits = detail::OutputTraits<M>;
-    of_.outputs.push_back({port, &Traits::type(), Traits::emission, doc});
+    of_.outputs.push_back({port, &Traits::type(), Traits::emission, doc, ""});
     getters_.push_back([member](Out& out, PortOutput& to) { Traits::get(out.*member, to); });
+    return *this;
+  }
+  /// The many values of the output declared last belong to the items of an input declared before, an Each of the same grain:
+  /// one value each, in their order. Without this they are items of their own.
+  Declaration& over(const char* input) {
+    if (of_.outputs.empty() || of_.outputs.back().emission == Emission::one)
+      throw std::logic_error("over(): the last thing declared is no output of many values");
+    const InputDescription* of = of_.input(input);
+    if (!of || of->access != Access::each || of->type->grain != of_.outputs.back().type->grain)
+      throw std::logic_error("output '" + of_.outputs.back().name + "': no input '" + input + "' of items of its grain");
+    of_.outputs.back().over = input;
     return *this;
   }
 

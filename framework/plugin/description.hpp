@@ -44,6 +44,7 @@ struct OutputDescription {
   const Type* type = nullptr;
   Emission emission = Emission::one;
   std::string doc;
+  std::string over;  ///< of many: the input whose items they belong to, one value each; empty: they are new items
 };
 
 enum class ParameterKind { number, integer, boolean, text, path, choice };

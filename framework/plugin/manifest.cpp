@@ -10,6 +10,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+constexpr int manifest_version = 2;
+
 constexpr StepKind step_kinds[] = {StepKind::frame, StepKind::segment, StepKind::edge, StepKind::fold,
                                    StepKind::whole};
 constexpr const char* accesses[] = {"item", "ends", "each", "several", "relative", "over_edges", "this_edge"};
@@ -105,6 +107,7 @@ json to_json(const StepDescription& s) {
     j["outputs"].push_back({{"name", port.name},
                             {"type", port.type->name},
                             {"emission", emissions[static_cast<int>(port.emission)]},
+                            {"over", port.over},
                             {"doc", port.doc}});
   for (const auto& p : s.parameters) j["parameters"].push_back(parameter_json(p));
   return j;
@@ -128,7 +131,7 @@ StepDescription step_of(const json& j) {
                         p.at("optional"), p.at("doc")});
   for (const auto& p : j.at("outputs"))
     s.outputs.push_back({p.at("name"), type_named(p.at("type")),
-                         by_place<Emission>(emissions, p.at("emission")), p.at("doc")});
+                         by_place<Emission>(emissions, p.at("emission")), p.at("doc"), p.at("over")});
   for (const auto& p : j.at("parameters")) s.parameters.push_back(parameter_of(p));
   return s;
 }
@@ -138,7 +141,7 @@ StepDescription step_of(const json& j) {
 std::string step_json(const StepDescription& step) { return to_json(step).dump(2); }
 
 std::string manifest_text(const Manifest& manifest) {
-  json j = {{"plumb_manifest", 1}, {"abi", manifest.abi_tag}, {"steps", json::array()}};
+  json j = {{"plumb_manifest", manifest_version}, {"abi", manifest.abi_tag}, {"steps", json::array()}};
   for (const auto& step : manifest.steps) j["steps"].push_back(to_json(step));
   return j.dump(1) + "\n";
 }
@@ -146,7 +149,7 @@ std::string manifest_text(const Manifest& manifest) {
 Manifest read_manifest(const std::string& text, const std::string& file) {
   try {
     const json j = json::parse(text);
-    if (j.at("plumb_manifest") != 1) throw Error("made for another version of Plumb");
+    if (j.at("plumb_manifest") != manifest_version) throw Error("made for another version of Plumb");
     Manifest manifest{j.at("abi"), {}};
     for (const auto& step : j.at("steps")) manifest.steps.push_back(step_of(step));
     return manifest;

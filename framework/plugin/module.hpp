@@ -9,7 +9,7 @@
 
 #include "plumb/plugin/declaration.hpp"
 
-#define PLUMB_SDK_ABI 1  ///< raised when anything in data/, plugin/ or geometry/ changes its layout
+#define PLUMB_SDK_ABI 2  ///< raised when anything in data/, plugin/ or geometry/ changes its layout
 
 #define PLUMB_TEXT_(x) #x
 #define PLUMB_TEXT(x) PLUMB_TEXT_(x)

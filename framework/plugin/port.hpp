@@ -9,7 +9,8 @@
 ///   OverEdges    which edges there are; the content is not seen and not in the key     (EdgeStep)
 ///   ThisEdge     the edge itself                                                       (EdgeStep)
 ///
-/// In `Out`: T (one value), std::vector<T> (one per segment, from a WholeStep or FoldStep), Lazy<T> (made when asked for).
+/// In `Out`: T (one value), std::vector<T> (one per segment, from a WholeStep or FoldStep), Lazy<T> (made when asked for). Many values open
+/// items of their own, unless the declaration says whose they are: `.output(...).over("segments")`.
 
 #include <functional>
 #include <memory>

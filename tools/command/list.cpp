@@ -41,7 +41,8 @@ void print_step(const StepDescription& step) {
   if (step.inputs.empty()) std::cout << "  none\n";
   std::cout << "\nOutputs\n";
   for (const auto& port : step.outputs)
-    std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type) << "\n"
+    std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type)
+              << (port.over.empty() ? "" : " of '" + port.over + "'") << "\n"
               << std::string(16, ' ') << port.doc << "\n";
   std::cout << "\nParameters\n";
   for (const auto& p : step.parameters) {
