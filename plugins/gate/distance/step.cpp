@@ -1,0 +1,60 @@
+#include "gate.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct GateDistance : WholeStep {
+  struct In {
+    Each<Segment> segments;
+  };
+  struct Out {
+    Edges edges;
+    Metrics metrics;
+  };
+  using Params = GateOptions;
+
+  static void describe(Declaration<GateDistance>& is) {
+    is.name("gate.distance").version(1).source("[Zhang2023] eq. 13");
+    is.summary("Joins each scan to the one before, leaving out those that jump.");
+    is.input("segments", &In::segments, "the scans in order, one a segment");
+    is.output("edges", &Out::edges, "the chain: each accepted scan and the accepted one before it");
+    is.output("metrics", &Out::metrics, "scans accepted and dropped, windows started again");
+    is.param("limit", &Params::limit)
+        .range(0, 1)
+        .doc("greatest (r0 - r1)^2 / (r0 + r1)^2 that is accepted, r being how far a scan's centre lies from the sensor")
+        .source("[Zhang2023] eq. 13");
+    is.param("patience", &Params::patience)
+        .range(0, 1e6)
+        .doc("after so many dropped in a row the window is emptied and starts again with the present scan");
+    is.param("least_points", &Params::least_points).range(1, 1e6).doc("scans with fewer points are dropped");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    std::vector<Seen> scans(in.segments.size());
+    context.parallel(scans.size(), [&](std::size_t k) {
+      const auto segment = in.segments.open(k);
+      scans[k] = {segment->centroid.cast<double>().norm(), segment->cloud.size()};
+    });
+    Gated gated = gated_chain(scans, params);
+    const auto count = [&](const char* what, std::size_t n) {
+      if (n) context.count(what, n);
+    };
+    count("scans dropped because they jump", gated.far);
+    count("scans dropped because they have too few points", gated.empty);
+    count("windows started again", gated.resets);
+    if (gated.accepted < 2)
+      context.warn("fewer than two scans of " + std::to_string(scans.size()) + " are accepted: there is no chain");
+    Out out;
+    out.metrics.add("accepted", static_cast<double>(gated.accepted), "")
+        .add("dropped", static_cast<double>(gated.far + gated.empty), "")
+        .add("resets", static_cast<double>(gated.resets), "");
+    out.edges = std::move(gated.edges);
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::GateDistance)
