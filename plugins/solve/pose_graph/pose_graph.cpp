@@ -6,6 +6,7 @@
 #include <ceres/solver.h>
 
 #include <memory>
+#include <numeric>
 
 #include "edge_state.hpp"
 #include "parts.hpp"
@@ -71,10 +72,13 @@ class Graph {
 
   void add_relations(const Relations& relations) {
     planar_ = relations.planar;
+    named_.assign(start_.size() + 1, 0);  // how many poses before each one a relation names
+    for (const auto& relation : relations.relative) named_[relation.i + 1] = named_[relation.j + 1] = 1;
+    std::partial_sum(named_.begin(), named_.end(), named_.begin());
     for (const auto& relation : relations.relative) {
       auto term = std::make_unique<RelationTerm>();
       term->relation = relation;
-      term->robust = relation.j != relation.i + 1;
+      term->robust = !sequential(relation);
       if (options_.relation_error == RelationError::chordal)
         term->cost = std::make_unique<ChordalCost>(relation, planar_, &term->root_weight);
       else
@@ -82,6 +86,16 @@ class Graph {
       terms_.push_back(std::move(term));
     }
     relations_ = terms_.size();
+  }
+
+  /// From a pose to the next that any relation names: between them lie at most poses that were left out.
+  bool sequential(const RelativePose& r) const { return r.j > r.i && named_[r.j] == named_[r.i + 1]; }
+
+  std::vector<std::uint32_t> unnamed() const {
+    std::vector<std::uint32_t> poses;
+    for (std::uint32_t k = 0; k < start_.size(); ++k)
+      if (named_[k + 1] == named_[k]) poses.push_back(k);
+    return poses;
   }
 
   /// The shape that the poses came with, between neighbours: q.vec is half the rotation, hence the 4.
@@ -266,9 +280,10 @@ class Graph {
     for (std::size_t k = 0; k < relations_; ++k) {
       const auto& r = terms_[k]->relation;
       const Pose error = r.T_i_j.inverse() * (pose(r.i).inverse() * pose(r.j));
-      verdict.add(r, error.translation.norm(), terms_[k]->root_weight * terms_[k]->root_weight);
+      verdict.add(r, !terms_[k]->robust, error.translation.norm(), terms_[k]->root_weight * terms_[k]->root_weight);
     }
     if (terms_.size() > relations_) verdict.joined_by_prior();
+    if (edges_.empty() && relations_ > 0) verdict.left_out(unnamed());
     result.metrics = verdict.metrics(before, cost(), rounds_used_, iterations_used_);
     result.warnings = verdict.warnings(parts_.list());
     return result;
@@ -283,6 +298,7 @@ class Graph {
   std::vector<std::unique_ptr<EdgeState>> edges_;
   std::vector<std::unique_ptr<RelationTerm>> terms_;  ///< relations first, then priors
   std::size_t relations_ = 0;
+  std::vector<std::uint32_t> named_;
   std::vector<std::unique_ptr<ceres::CostFunction>> owned_;
   std::unique_ptr<PoseManifold> manifold_;
   std::unique_ptr<ceres::Problem> problem_;

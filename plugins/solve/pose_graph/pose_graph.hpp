@@ -51,7 +51,7 @@ using ParallelLoop = std::function<void(std::size_t n, const std::function<void(
 ///   sum over edges, over pairs   w rho(|T_i p - T_j q|^2 / scale^2)       (or the distance to the plane at q)
 /// + sum over relations           rho(e'Omega e / relation_scale^2) relation_scale^2
 /// + sum over consecutive poses   |v / odometry_translation|^2 + |w / odometry_rotation|^2,   if both are given,
-/// v and w being what T_k^-1 T_k+1 differs from what it is in `start`. Sequential relations (j = i + 1) have no loss. It is solved in
+/// v and w being what T_k^-1 T_k+1 differs from what it is in `start`. Sequential relations (no pose between i and j is named by any relation) have no loss. It is solved in
 /// rounds: weights rho' from the present residuals, all pairs summed to one form per edge (pair_moments.hpp), Levenberg-Marquardt.
 ///
 /// The first pose of each connected part stays as it is, unless an absolute constraint holds the part. A part that no edge joins

@@ -14,7 +14,7 @@ struct SolvePoseGraph : WholeStep {
   struct In {
     One<Poses> poses;
     Each<Matches> matches;
-    One<Relations> relations;
+    Several<Relations> relations;
   };
   struct Out {
     Poses poses;
@@ -24,12 +24,12 @@ struct SolvePoseGraph : WholeStep {
 
   static void describe(Declaration<SolvePoseGraph>& is) {
     is.name("solve.pose_graph")
-        .version(1)
+        .version(2)
         .summary("Moves all segments so that the pairs of all edges come together.")
         .source("[Tang2024] 2.1, 2.4.1");
     is.input("poses", &In::poses, "where the segments are; the solver starts here");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
-    is.optional_input("relations", &In::relations, "measured relative and absolute poses and points");
+    is.optional_input("relations", &In::relations, "measured relative and absolute poses and points; several are joined");
     is.output("poses", &Out::poses, "where the segments are after solving");
     is.output("metrics", &Out::metrics, "cost, residual, and what became of each edge");
     is.choice("loss", &Params::loss, losses).doc("how a pair's squared residual counts").source("[Tang2024] 2.1");
@@ -64,7 +64,7 @@ struct SolvePoseGraph : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    if (!in.matches && !in.relations)
+    if (!in.matches && in.relations.empty())
       throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'relations' or both");
     std::vector<One<Matches>> held;
     std::vector<MatchedEdge> edges;
@@ -74,11 +74,32 @@ struct SolvePoseGraph : WholeStep {
       for (std::size_t k = 0; k < held.size(); ++k)
         edges.push_back({in.matches.edges().list[k], &*held[k]});
     }
+    const Relations relations = joined(in.relations);
     auto result = solve_pose_graph(
-        *in.poses, edges, in.relations ? &*in.relations : nullptr, params,
+        *in.poses, edges, in.relations.empty() ? nullptr : &relations, params,
         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     for (const auto& warning : result.warnings) context.warn(warning);
     return {std::move(result.poses), std::move(result.metrics)};
+  }
+
+ private:
+  /// One graph of all; those that hold nothing say nothing of the plane.
+  static Relations joined(const Several<Relations>& several) {
+    Relations all;
+    const Labelled<Relations>* first = nullptr;
+    for (const auto& one : several) {
+      const Relations& r = *one.value;
+      if (r.relative.empty() && r.absolute.empty() && r.points.empty()) continue;
+      if (first && r.planar != all.planar)
+        throw Error("relations '" + (r.planar ? one : *first).label + "' lie in the plane and '" +
+                    (r.planar ? *first : one).label + "' do not; they cannot be solved together");
+      if (!first) all.planar = r.planar;
+      first = first ? first : &one;
+      all.relative.insert(all.relative.end(), r.relative.begin(), r.relative.end());
+      all.absolute.insert(all.absolute.end(), r.absolute.begin(), r.absolute.end());
+      all.points.insert(all.points.end(), r.points.begin(), r.points.end());
+    }
+    return all;
   }
 };
 

@@ -27,8 +27,8 @@ void Verdict::add(const EdgeState& state) {
   records_.push_back(std::move(record));
 }
 
-void Verdict::add(const RelativePose& r, double residual, double weight) {
-  const auto kind = r.j == r.i + 1 ? EdgeKind::sequential : EdgeKind::loop;
+void Verdict::add(const RelativePose& r, bool sequential, double residual, double weight) {
+  const auto kind = sequential ? EdgeKind::sequential : EdgeKind::loop;
   records_.push_back({r.i, r.j, kind, 1, 1, residual, weight, fate_of(weight)});
   squares_ += weight * residual * residual;
   weights_ += weight;
@@ -57,12 +57,21 @@ Metrics Verdict::metrics(double cost_before, double cost_after, int rounds, int 
   return metrics;
 }
 
+void Verdict::drop_left_out(std::vector<std::vector<std::uint32_t>>& parts) const {
+  std::erase_if(parts, [&](const auto& part) {
+    return part.size() == 1 && std::binary_search(left_out_.begin(), left_out_.end(), part.front());
+  });
+}
+
 std::vector<std::string> Verdict::notes() const {
   std::vector<std::string> notes;
   Parts firm(support_.size());
   for (const auto& r : records_)
     if (r.fate == "kept" || r.fate == "down-weighted") firm.join(r.i, r.j);
-  const auto parts = firm.list();
+  auto parts = firm.list();
+  drop_left_out(parts);
+  if (!left_out_.empty())
+    notes.push_back("segments " + runs_of(left_out_) + " are named by no relation and keep their place after the one before");
   for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
     notes.push_back("segments " + runs_of(parts[n]) +
                     " are not joined to the rest by any edge that was kept");
@@ -76,7 +85,8 @@ std::vector<std::string> Verdict::notes() const {
 }
 
 std::vector<std::string> Verdict::warnings(
-    const std::vector<std::vector<std::uint32_t>>& parts) const {
+    std::vector<std::vector<std::uint32_t>> parts) const {
+  drop_left_out(parts);
   if (parts.size() < 2) return {};
   std::string sentence = "the graph falls into " + std::to_string(parts.size()) + " parts (segments ";
   for (std::size_t n = 0; n < parts.size(); ++n) {

@@ -14,18 +14,22 @@ class Verdict {
   explicit Verdict(std::size_t poses) : support_(poses, 0.0) {}
   void add(const EdgeState& edge);
   /// A relation with the distance [m] that is left, and its robust weight.
-  void add(const RelativePose& relation, double residual, double weight);
+  void add(const RelativePose& relation, bool sequential, double residual, double weight);
+  /// Poses in order that nothing names, as of dropped scans: they are a note, not parts of their own.
+  void left_out(std::vector<std::uint32_t> poses) { left_out_ = std::move(poses); }
   void joined_by_prior() { prior_ = true; }
 
   Metrics metrics(double cost_before, double cost_after, int rounds, int iterations);
   /// One sentence if the graph falls apart.
-  std::vector<std::string> warnings(const std::vector<std::vector<std::uint32_t>>& parts) const;
+  std::vector<std::string> warnings(std::vector<std::vector<std::uint32_t>> parts) const;
 
  private:
   std::vector<std::string> notes() const;
+  void drop_left_out(std::vector<std::vector<std::uint32_t>>& parts) const;
 
   std::vector<EdgeRecord> records_;
   std::vector<double> support_;  ///< of each pose: pairs that hold it, by weight
+  std::vector<std::uint32_t> left_out_;
   double squares_ = 0, weights_ = 0;
   std::uint64_t pairs_ = 0;
   bool relations_ = false, prior_ = false;
