@@ -63,9 +63,10 @@ class Search {
     for (const Branch& b : branches) {
       if (b.bound <= best_sum_) return;
       if (level == 0) {
-        if (excluded(b)) continue;
-        best_sum_ = b.bound, found_ = b;
-        return;  // the others are no better
+        const int sum = b.bound - lost(b);
+        if (sum <= best_sum_ || excluded(b)) continue;
+        best_sum_ = sum, found_ = b;
+        continue;
       }
       std::vector<Branch> parts;
       const int half = 1 << (level - 1);
@@ -73,6 +74,15 @@ class Search {
         for (const int column : {b.column, b.column + half}) add(parts, b.yaw, column, row, level - 1);
       descend(parts, level - 1);
     }
+  }
+
+  /// What the window's trust takes from the sum of a single pose.
+  int lost(const Branch& b) const {
+    if (window_.trust == 0) return 0;
+    const double x = (b.column - half_columns_) * field_.resolution() / window_.x;
+    const double y = (b.row - half_rows_) * field_.resolution() / window_.y;
+    const double yaw = (b.yaw - half_yaws_) * yaw_step_ / window_.yaw;
+    return static_cast<int>(window_.trust * (x * x + y * y + yaw * yaw) / 3 * 255 * static_cast<double>(count_));
   }
 
   PlanarPose pose(const Branch& b) const {

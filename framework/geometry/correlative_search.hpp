@@ -10,10 +10,13 @@
 
 namespace plumb {
 
-/// Where to look: `centre` +- the half widths [m], [rad].
+/// Where to look: `centre` +- the half widths [m], [rad]. A pose's score is lowered by `trust` times
+/// the mean of its three squared distances from the centre, each in half widths: where the points do
+/// not say, the centre does.
 struct SearchWindow {
   PlanarPose centre;
   double x = 0.5, y = 0.5, yaw = 0.3;
+  double trust = 0;
 };
 
 /// Poses that are not looked at: those nearer than `distance` [m] and `yaw` [rad] to `pose`.
@@ -24,7 +27,7 @@ struct Excluded {
 
 struct Peak {
   PlanarPose pose;   ///< lays the points onto the field
-  double score = 0;  ///< mean value of the points' cells, 0 to 1
+  double score = 0;  ///< mean value of the points' cells, 0 to 1, less what `trust` takes
 };
 
 /// The best pose of the window's grid (one cell in x and y, `yaw_step` [rad] in yaw) whose score is

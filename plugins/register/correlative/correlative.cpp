@@ -28,14 +28,14 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   const Places onto = within_range(target, options.range), laid = within_range(source, options.range);
   if (onto.x.empty() || laid.x.empty()) return result;
 
-  // Where the peak is, to a cell. No penalty for being far from the start: the window says what can be.
+  // Where the peak is, to a cell.
   constexpr int levels = 5;
   const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma, levels);
   const double step = yaw_step_for(laid.x, laid.y, options.resolution);
-  auto peak = best_pose(coarse, laid.x, laid.y, {start, options.reach, options.reach, options.turn}, step, 0);
+  auto peak = best_pose(coarse, laid.x, laid.y, {start, options.reach, options.reach, options.turn, options.trust}, step, 0);
   if (!peak || peak->score < options.retry_below) {
     result.retried = true;
-    const auto wider = best_pose(coarse, laid.x, laid.y, {start, options.retry_reach, options.retry_reach, M_PI},
+    const auto wider = best_pose(coarse, laid.x, laid.y, {start, options.retry_reach, options.retry_reach, M_PI, options.trust},
                                  step, peak ? peak->score : 0);
     if (wider) peak = wider;
   }

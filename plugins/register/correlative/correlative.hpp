@@ -9,13 +9,14 @@ namespace plumb {
 struct CorrelativeOptions {
   double reach = 0.6;          ///< [m] half width of the window
   double turn = 1.2;           ///< [rad] half width of the window
+  double trust = 0.1;          ///< score that a pose at the window's edge loses
   double resolution = 0.1;     ///< [m] of the first search
   double sigma = 0.1;          ///< [m] of the first field
   double retry_below = 0.5;    ///< a score below it is tried again in a window of
   double retry_reach = 1.5;    ///< [m] ... and all headings
   double fine_resolution = 0.03;  ///< [m] of the second search, round the first's peak
-  double fine_sigma = 0.06;       ///< [m]
-  double range = 15;           ///< [m] points farther from their sensor are left out
+  double fine_sigma = 0.1;       ///< [m]
+  double range = 30;           ///< [m] points farther from their sensor are left out
 };
 
 struct CorrelativeResult {

@@ -38,6 +38,8 @@ struct RegisterCorrelative : EdgeStep {
     param("reach", &CorrelativeOptions::reach).unit("m").range(0.01, 20).doc("half the window's width in x and y");
     param("turn", &CorrelativeOptions::turn).unit("rad").range(0.001, std::numbers::pi)
         .doc("half the window's width in heading");
+    param("trust", &CorrelativeOptions::trust).range(0, 1)
+        .doc("score that a pose loses at the window's edge: where the points do not say, as along a corridor, the present pose does");
     param("resolution", &CorrelativeOptions::resolution).unit("m").range(0.01, 2).doc("grid of the first search");
     param("sigma", &CorrelativeOptions::sigma).unit("m").range(0.005, 2)
         .doc("how far off a point may lie and still count, in the first search");

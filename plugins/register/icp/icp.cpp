@@ -116,8 +116,8 @@ class Icp {
     return moved;
   }
 
-  /// What the pairs' lines fix, whatever the metric: along a bare corridor that is nothing, however many points there are. Without
-  /// normals a pair fixes both directions. Brought to the source's coordinates, in which a relation's error is taken.
+  /// What the pairs' lines fix, whatever the metric: along a bare corridor that is nothing, however many points there are, and only the
+  /// start's hold is left. Without normals a pair fixes both directions. Brought to the source's coordinates, in which a relation's error is taken.
   Eigen::Matrix3d information() const {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
     const bool normals = target_.has_normals();
@@ -133,7 +133,9 @@ class Icp {
     }
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(result_.T.yaw).toRotationMatrix();
-    return turn.transpose() * h * turn / (options_.noise * options_.noise * points_that_count_as_one);
+    Eigen::Matrix3d all = turn.transpose() * h * turn / (options_.noise * options_.noise * points_that_count_as_one);
+    if (options_.hold) all.diagonal() += Eigen::Vector3d(1, 1, 9) * std::pow(*options_.hold, -2);
+    return all;
   }
 
   const Cloud& target_;
