@@ -3,11 +3,13 @@
 namespace plumb {
 
 std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled, double length,
-                                            std::optional<std::size_t> most_frames) {
+                                            std::optional<std::size_t> most_frames,
+                                            const std::function<bool(std::size_t, std::size_t)>& breaks) {
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < travelled.size(); ++k) {
     const bool full = !starts.empty() && most_frames && k - starts.back() >= *most_frames;
-    if (starts.empty() || full || travelled[k] - travelled[starts.back()] > length)
+    const bool broken = !starts.empty() && breaks && breaks(starts.back(), k);
+    if (starts.empty() || full || broken || travelled[k] - travelled[starts.back()] > length)
       starts.push_back(k);
   }
   if (starts.size() < 2) return starts;
@@ -15,7 +17,8 @@ std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled
   const bool short_path = travelled.back() - travelled[last] < 0.5 * length;
   const bool few_frames = !most_frames || 2 * (travelled.size() - last) < *most_frames;
   const bool fits = travelled.back() - travelled[before] < 2 * length;
-  if (short_path && few_frames && fits) starts.pop_back();
+  const bool parted = breaks && breaks(before, travelled.size() - 1);
+  if (short_path && few_frames && fits && !parted) starts.pop_back();
   return starts;
 }
 

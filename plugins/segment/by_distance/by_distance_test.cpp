@@ -62,5 +62,11 @@ TEST(SegmentByDistance, MeasuresThePathAndNotTheDistanceFromTheStart) {
   EXPECT_EQ(outputs[1].one.as<Poses>()->size(), 2u);
 }
 
+TEST(ByDistance, ATurnBeginsASegmentTooAndKeepsItsLastOne) {
+  const std::vector<double> heading = {0, 0.1, 0.2, 0.4, 0.5, 0.9};
+  const auto breaks = [&](std::size_t first, std::size_t k) { return heading[k] - heading[first] > 0.25; };
+  EXPECT_THAT(starts_by_distance({0, 0, 0, 0, 0, 0}, 1, {}, breaks), ElementsAre(0, 3, 5));
+}
+
 }  // namespace
 }  // namespace plumb

@@ -1,3 +1,5 @@
+#include <functional>
+#include <numbers>
 #include <optional>
 
 #include "by_distance.hpp"
@@ -18,10 +20,11 @@ struct ByDistance : WholeStep {
   struct Params {
     double length = 15;
     std::optional<std::uint32_t> most_frames;
+    std::optional<double> turn;
   };
 
   static void describe(Declaration<ByDistance>& is) {
-    is.name("segment.by_distance").version(1).source("[Tang2024] 2.2, by path instead of by count");
+    is.name("segment.by_distance").version(2).source("[Tang2024] 2.2, by path instead of by count");
     is.summary("Cuts the trajectory into segments of an equal length of path.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.output("ranges", &Out::ranges, "the frames of each segment");
@@ -33,12 +36,22 @@ struct ByDistance : WholeStep {
     is.param("most_frames", &Params::most_frames)
         .range(1, 65535)
         .doc("frames a segment at most, for where the sensor rests; none: no limit");
+    is.param("turn", &Params::turn)
+        .unit("rad")
+        .range(1e-4, std::numbers::pi)
+        .doc("a frame that is turned by more against its segment's first begins a new one; none: however far");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
     Out out;
-    out.ranges = ranges_from(*in.trajectory, starts_by_distance(travelled(*in.trajectory),
-                                                                params.length, params.most_frames));
+    const auto& poses = in.trajectory->T_world_frame;
+    std::function<bool(std::size_t, std::size_t)> turned;
+    if (params.turn)
+      turned = [&](std::size_t first, std::size_t k) {
+        return angle(poses[first].inverse() * poses[k]) > *params.turn;
+      };
+    out.ranges = ranges_from(*in.trajectory,
+                             starts_by_distance(travelled(*in.trajectory), params.length, params.most_frames, turned));
     out.poses = poses_of(out.ranges);
     return out;
   }
