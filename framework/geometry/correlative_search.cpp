@@ -78,11 +78,13 @@ class Search {
 
   /// What the window's trust takes from the sum of a single pose.
   int lost(const Branch& b) const {
-    if (window_.trust == 0) return 0;
-    const double x = (b.column - half_columns_) * field_.resolution() / window_.x;
-    const double y = (b.row - half_rows_) * field_.resolution() / window_.y;
-    const double yaw = (b.yaw - half_yaws_) * yaw_step_ / window_.yaw;
-    return static_cast<int>(window_.trust * (x * x + y * y + yaw * yaw) / 3 * 255 * static_cast<double>(count_));
+    const Trust& trust = window_.trust;
+    if (trust.share == 0) return 0;
+    const PlanarPose p = pose(b);
+    const double x = (p.x - trust.pose.x) / trust.distance, y = (p.y - trust.pose.y) / trust.distance;
+    const double yaw = wrapped(p.yaw - trust.pose.yaw) / trust.yaw;
+    const double square = x * x + y * y + yaw * yaw;
+    return static_cast<int>(trust.share * square / (1 + square) * 255 * static_cast<double>(count_));
   }
 
   PlanarPose pose(const Branch& b) const {

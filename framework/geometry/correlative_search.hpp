@@ -10,13 +10,19 @@
 
 namespace plumb {
 
-/// Where to look: `centre` +- the half widths [m], [rad]. A pose's score is lowered by `trust` times
-/// the mean of its three squared distances from the centre, each in half widths: where the points do
-/// not say, the centre does.
+/// What is believed before looking: a score is lowered by up to `share`, by half of it at `distance` [m] or
+/// at `yaw` [rad] from `pose`. Where the points do not say, as along a corridor, this does; where they do
+/// by more than `share`, they win however far off.
+struct Trust {
+  PlanarPose pose;
+  double share = 0, distance = 0.05, yaw = 0.05;
+};
+
+/// Where to look: `centre` +- the half widths [m], [rad].
 struct SearchWindow {
   PlanarPose centre;
   double x = 0.5, y = 0.5, yaw = 0.3;
-  double trust = 0;
+  Trust trust = {};
 };
 
 /// Poses that are not looked at: those nearer than `distance` [m] and `yaw` [rad] to `pose`.

@@ -9,7 +9,9 @@ namespace plumb {
 struct CorrelativeOptions {
   double reach = 0.6;          ///< [m] half width of the window
   double turn = 1.2;           ///< [rad] half width of the window
-  double trust = 0.1;          ///< score that a pose at the window's edge loses
+  double trust = 0.1;          ///< score that a pose far from the start loses at most; half of it ...
+  double trust_distance = 0.05;  ///< [m] ... so far off
+  double trust_turn = 0.05;      ///< [rad] ... or turned so far
   double resolution = 0.1;     ///< [m] of the first search
   double sigma = 0.1;          ///< [m] of the first field
   double retry_below = 0.5;    ///< a score below it is tried again in a window of
@@ -27,7 +29,7 @@ struct CorrelativeResult {
 };
 
 /// The pose in the window round `start` that lays `source` onto `target` best, between the cells of the second search by a
-/// parabola. Score 0 and `start` where either has no points in range.
+/// parabola. A start that is the identity says nothing (there was no odometry) and is not trusted. Score 0 and `start` where either has no points in range.
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);
 

@@ -39,7 +39,11 @@ struct RegisterCorrelative : EdgeStep {
     param("turn", &CorrelativeOptions::turn).unit("rad").range(0.001, std::numbers::pi)
         .doc("half the window's width in heading");
     param("trust", &CorrelativeOptions::trust).range(0, 1)
-        .doc("score that a pose loses at the window's edge: where the points do not say, as along a corridor, the present pose does");
+        .doc("score that a pose far from the present one loses at most: where the points do not say, as along a corridor, the present "
+             "pose does; a present pose that is the identity says nothing");
+    param("trust_distance", &CorrelativeOptions::trust_distance).unit("m").range(1e-3, 10).doc("so far off half of that is lost");
+    param("trust_turn", &CorrelativeOptions::trust_turn).unit("rad").range(1e-3, std::numbers::pi)
+        .doc("turned so far half of that is lost");
     param("resolution", &CorrelativeOptions::resolution).unit("m").range(0.01, 2).doc("grid of the first search");
     param("sigma", &CorrelativeOptions::sigma).unit("m").range(0.005, 2)
         .doc("how far off a point may lie and still count, in the first search");
