@@ -42,9 +42,12 @@ GridMap map_round(const std::vector<PlacedScan>& scans, const GridOptions& optio
   for (const PlacedScan& scan : scans) {
     bounds.add(scan.from);
     for (const auto& hit : scan.hits)
-      bounds.add(within(scan.from, hit, options.max_range) ? hit : cut_off(scan.from, hit, options.max_range));
+      bounds.add(within(scan.from, hit, options.max_range)
+                     ? hit
+                     : cut_off(scan.from, hit, options.max_range));
     if (!scan.from.allFinite() || !bounds.low.allFinite() || !bounds.high.allFinite())
-      throw Error("a pose or a point is no number, so it has no place in the map; look at the trajectory");
+      throw Error(
+          "a pose or a point is no number, so it has no place in the map; look at the trajectory");
   }
   GridMap map;
   map.resolution = options.resolution;
@@ -54,7 +57,8 @@ GridMap map_round(const std::vector<PlacedScan>& scans, const GridOptions& optio
   if (cells.prod() > static_cast<double>(options.most_cells) || cells.maxCoeff() > 4e6)
     throw Error("the map would have " + std::to_string(static_cast<long long>(cells.x())) + " x " +
                 std::to_string(static_cast<long long>(cells.y())) + " cells, more than " +
-                std::to_string(options.most_cells) + "; give a larger resolution, or look whether the trajectory runs away");
+                std::to_string(options.most_cells) +
+                "; give a larger resolution, or look whether the trajectory runs away");
   map.origin = (first * options.resolution).matrix();
   map.columns = static_cast<std::uint32_t>(cells.x());
   map.rows = static_cast<std::uint32_t>(cells.y());
@@ -89,8 +93,12 @@ ScanRays in_cells(const PlacedScan& scan, const GridMap& map, double max_range) 
 class Band {
  public:
   Band(GridMap& map, const GridOptions& options, std::int32_t first, std::int32_t last)
-      : map_(map), first_(first), last_(last), hit_(static_cast<float>(options.hit)),
-        miss_(static_cast<float>(options.miss)), lowest_(static_cast<float>(options.lowest)),
+      : map_(map),
+        first_(first),
+        last_(last),
+        hit_(static_cast<float>(options.hit)),
+        miss_(static_cast<float>(options.miss)),
+        lowest_(static_cast<float>(options.lowest)),
         highest_(static_cast<float>(options.highest)),
         marks_(static_cast<std::size_t>(last - first + 1) * map.columns, 0) {}
 
@@ -98,8 +106,10 @@ class Band {
   void add(const ScanRays& scan, std::uint32_t mark) {
     if (scan.last_row < first_ || scan.first_row > last_) return;
     for (std::size_t k = 0; k < scan.hit_x.size(); ++k) add_hit(scan.hit_x[k], scan.hit_y[k], mark);
-    for (std::size_t k = 0; k < scan.hit_x.size(); ++k) clear({scan.x, scan.y, scan.hit_x[k], scan.hit_y[k]}, mark);
-    for (std::size_t k = 0; k < scan.open_x.size(); ++k) clear({scan.x, scan.y, scan.open_x[k], scan.open_y[k]}, mark);
+    for (std::size_t k = 0; k < scan.hit_x.size(); ++k)
+      clear({scan.x, scan.y, scan.hit_x[k], scan.hit_y[k]}, mark);
+    for (std::size_t k = 0; k < scan.open_x.size(); ++k)
+      clear({scan.x, scan.y, scan.open_x[k], scan.open_y[k]}, mark);
   }
 
   /// Seen cells in which hits and misses cancelled are told from those never seen.
@@ -110,8 +120,12 @@ class Band {
   }
 
  private:
-  float* row(std::int32_t r) { return map_.log_odds.data() + static_cast<std::size_t>(r) * map_.columns; }
-  std::uint32_t* marks(std::int32_t r) { return marks_.data() + static_cast<std::size_t>(r - first_) * map_.columns; }
+  float* row(std::int32_t r) {
+    return map_.log_odds.data() + static_cast<std::size_t>(r) * map_.columns;
+  }
+  std::uint32_t* marks(std::int32_t r) {
+    return marks_.data() + static_cast<std::size_t>(r - first_) * map_.columns;
+  }
 
   void add_hit(float x, float y, std::uint32_t mark) {
     const auto r = static_cast<std::int32_t>(y), c = static_cast<std::int32_t>(x);
@@ -149,7 +163,8 @@ PlacedScan placed(const Cloud& cloud, const Pose& T_world_sensor) {
   return scan;
 }
 
-GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options, const ParallelLoop& parallel) {
+GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options,
+                  const ParallelLoop& parallel) {
   GridMap map = map_round(scans, options);
   map.log_odds.assign(std::size_t{map.columns} * map.rows, 0.0f);
   std::vector<ScanRays> rays(scans.size());
@@ -159,12 +174,14 @@ GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& optio
       rays[k] = in_cells(scans[k], map, options.max_range);
   });
 
-  // A cell sees the scans in their order whatever the bands are, so these change nothing but the speed.
+  // A cell sees the scans in their order whatever the bands are, so these change nothing but the
+  // speed.
   const std::size_t height = std::max<std::size_t>(16, (map.rows + 47) / 48);
   parallel((map.rows + height - 1) / height, [&](std::size_t b) {
     const std::size_t last = std::min<std::size_t>(map.rows, (b + 1) * height) - 1;
     Band band(map, options, static_cast<std::int32_t>(b * height), static_cast<std::int32_t>(last));
-    for (std::size_t k = 0; k < rays.size(); ++k) band.add(rays[k], static_cast<std::uint32_t>(k + 1));
+    for (std::size_t k = 0; k < rays.size(); ++k)
+      band.add(rays[k], static_cast<std::uint32_t>(k + 1));
     band.finish();
   });
   return map;

@@ -1,5 +1,6 @@
 #pragma once
-/// Occupancy of a plane from laser scans whose poses are known. Source: [Moravec1985], [Thrun2005] ch. 9.
+/// Occupancy of a plane from laser scans whose poses are known. Source: [Moravec1985], [Thrun2005]
+/// ch. 9.
 
 #include <functional>
 #include <string>
@@ -11,7 +12,7 @@ namespace plumb {
 
 /// A scan in world coordinates [m].
 struct PlacedScan {
-  Eigen::Vector2d from;              ///< the sensor
+  Eigen::Vector2d from;  ///< the sensor
   std::vector<Eigen::Vector2d> hits;
 };
 
@@ -28,16 +29,21 @@ struct GridOptions {
   std::size_t most_cells = 400'000'000;
 
   std::string check() const {
-    return lowest < 0 && highest > 0 ? "" : "lowest must be below 0 and highest above 0, since 0 means not seen";
+    return lowest < 0 && highest > 0
+               ? ""
+               : "lowest must be below 0 and highest above 0, since 0 means not seen";
   }
 };
 
 /// Runs body(k) for k = 0 .. n-1, in any order.
-using ParallelLoop = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
+using ParallelLoop =
+    std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-/// The map of all scans, taken in their order. In each scan a cell counts once: as hit if any ray ends in it, else as
-/// missed if any ray passes it. A cell that was seen is never 0. The same bytes for any number of threads. Without
-/// scans an empty map. Throws Error: more than `most_cells`, a place that is no number.
-GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options, const ParallelLoop& parallel);
+/// The map of all scans, taken in their order. In each scan a cell counts once: as hit if any ray
+/// ends in it, else as missed if any ray passes it. A cell that was seen is never 0. The same bytes
+/// for any number of threads. Without scans an empty map. Throws Error: more than `most_cells`, a
+/// place that is no number.
+GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options,
+                  const ParallelLoop& parallel);
 
 }  // namespace plumb

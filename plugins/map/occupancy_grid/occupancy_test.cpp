@@ -88,7 +88,8 @@ float at(const GridMap& map, double x, double y) {
   return map.log_odds[r * map.columns + c];
 }
 
-const GridOptions options{.resolution = 0.1, .hit = 1, .miss = 0.5, .lowest = -2, .highest = 3, .max_range = 20};
+const GridOptions options{
+    .resolution = 0.1, .hit = 1, .miss = 0.5, .lowest = -2, .highest = 3, .max_range = 20};
 
 TEST(Occupancy, IsFreeUpToAHitOccupiedThereAndUnknownBehind) {
   const auto map = occupancy({{{0.05, 0.05}, {{2.05, 0.05}}}}, options, in_order);
@@ -100,7 +101,8 @@ TEST(Occupancy, IsFreeUpToAHitOccupiedThereAndUnknownBehind) {
 
 TEST(Occupancy, CountsACellOncePerScanAndAHitBeforeAMiss) {
   // Three rays along one line; the middle one ends where the others pass.
-  const auto map = occupancy({{{0.05, 0.05}, {{2.05, 0.05}, {1.05, 0.05}, {2.05, 0.06}}}}, options, in_order);
+  const auto map =
+      occupancy({{{0.05, 0.05}, {{2.05, 0.05}, {1.05, 0.05}, {2.05, 0.06}}}}, options, in_order);
   EXPECT_EQ(at(map, 0.55, 0.05), -0.5f);
   EXPECT_EQ(at(map, 1.05, 0.05), 1);
   EXPECT_EQ(at(map, 1.55, 0.05), -0.5f);
@@ -136,7 +138,9 @@ std::vector<PlacedScan> room(std::size_t count) {
     PlacedScan scan{{8 * random.uniform() - 4, 8 * random.uniform() - 4}, {}};
     for (int b = 0; b < 90; ++b) {
       const Eigen::Vector2d d(std::cos(0.07 * b + 0.01), std::sin(0.07 * b + 0.01));
-      const Eigen::Array2d t = ((d.array() > 0).select(5.03, Eigen::Array2d::Constant(-5.03)) - scan.from.array()) / d.array();
+      const Eigen::Array2d t =
+          ((d.array() > 0).select(5.03, Eigen::Array2d::Constant(-5.03)) - scan.from.array()) /
+          d.array();
       scan.hits.push_back(scan.from + d * std::abs(t.minCoeff()));
     }
     scans.push_back(scan);
@@ -161,7 +165,8 @@ TEST(Occupancy, DrawsTheWallsOfARoomAndNothingElse) {
 
 TEST(Occupancy, GivesTheSameBytesInAnyOrderOfWork) {
   const auto scans = room(50);
-  EXPECT_EQ(to_bytes(occupancy(scans, options, in_order)), to_bytes(occupancy(scans, options, backwards)));
+  EXPECT_EQ(to_bytes(occupancy(scans, options, in_order)),
+            to_bytes(occupancy(scans, options, backwards)));
 }
 
 /// The second way: every scan's cells as sets, cell by cell.
@@ -170,7 +175,9 @@ TEST(Occupancy, EqualsTheSumOverSetsOfCells) {
   const auto map = occupancy(scans, options, in_order);
   std::map<std::pair<int, int>, float> expected;
   for (const auto& scan : scans) {
-    const auto cell = [&](const Eigen::Vector2d& p) -> Eigen::Vector2f { return ((p - map.origin) / map.resolution).cast<float>(); };
+    const auto cell = [&](const Eigen::Vector2d& p) -> Eigen::Vector2f {
+      return ((p - map.origin) / map.resolution).cast<float>();
+    };
     Cells hits, misses;
     for (const auto& hit : scan.hits) {
       const auto a = cell(scan.from), b = cell(hit);
@@ -183,8 +190,9 @@ TEST(Occupancy, EqualsTheSumOverSetsOfCells) {
   }
   for (int r = 0; r < static_cast<int>(map.rows); ++r)
     for (int c = 0; c < static_cast<int>(map.columns); ++c)
-      EXPECT_NEAR(map.log_odds[static_cast<std::size_t>(r) * map.columns + static_cast<std::size_t>(c)],
-                  (expected.contains({c, r}) ? expected.at({c, r}) : 0.0f), 1e-30);
+      EXPECT_NEAR(
+          map.log_odds[static_cast<std::size_t>(r) * map.columns + static_cast<std::size_t>(c)],
+          (expected.contains({c, r}) ? expected.at({c, r}) : 0.0f), 1e-30);
 }
 
 TEST(Occupancy, KeepsItsShapeFarFromTheOrigin) {
@@ -197,7 +205,8 @@ TEST(Occupancy, KeepsItsShapeFarFromTheOrigin) {
   const auto far = occupancy(scans, options, in_order);
   std::size_t different = 0;
   ASSERT_EQ(near.log_odds.size(), far.log_odds.size());
-  for (std::size_t k = 0; k < near.log_odds.size(); ++k) different += (near.log_odds[k] > 0) != (far.log_odds[k] > 0);
+  for (std::size_t k = 0; k < near.log_odds.size(); ++k)
+    different += (near.log_odds[k] > 0) != (far.log_odds[k] > 0);
   EXPECT_LT(different, near.log_odds.size() / 200);
 }
 
@@ -213,14 +222,22 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
   frame.cloud.add({1, 0, 0});
   Trajectory trajectory;
   trajectory.stamps = {0, 1};
-  trajectory.T_world_frame = {{exp_rotation({0, 0, M_PI / 2}), {3.01, 4.01, 0}}, {exp_rotation({0, 0, M_PI / 2}), {4.01, 4.01, 0}}};
-  const auto map = StepRun(*plumb_module()).each<Frame>("frames", {frame, frame}).with("trajectory", trajectory).run<GridMap>("map", context);
+  trajectory.T_world_frame = {{exp_rotation({0, 0, M_PI / 2}), {3.01, 4.01, 0}},
+                              {exp_rotation({0, 0, M_PI / 2}), {4.01, 4.01, 0}}};
+  const auto map = StepRun(*plumb_module())
+                       .each<Frame>("frames", {frame, frame})
+                       .with("trajectory", trajectory)
+                       .run<GridMap>("map", context);
   EXPECT_GT(at(map, 3.02, 5.02), 0);
   EXPECT_GT(at(map, 4.02, 5.02), 0);
   EXPECT_LT(at(map, 4.02, 4.52), 0);
   EXPECT_EQ(context.counts["cells occupied"], 2u);
   trajectory.stamps.pop_back();
-  EXPECT_THROW(StepRun(*plumb_module()).each<Frame>("frames", {frame, frame}).with("trajectory", trajectory).run<GridMap>("map", context), Error);
+  EXPECT_THROW(StepRun(*plumb_module())
+                   .each<Frame>("frames", {frame, frame})
+                   .with("trajectory", trajectory)
+                   .run<GridMap>("map", context),
+               Error);
 }
 
 }  // namespace

@@ -7,15 +7,17 @@
 
 namespace plumb {
 
-/// A ray in the plane, in units of cells: cell (c, r) covers [c, c+1) x [r, r+1). Coordinates are not negative.
+/// A ray in the plane, in units of cells: cell (c, r) covers [c, c+1) x [r, r+1). Coordinates are
+/// not negative.
 struct Ray {
   float x0, y0, x1, y1;
   std::int32_t first_row() const { return static_cast<std::int32_t>(std::min(y0, y1)); }
   std::int32_t last_row() const { return static_cast<std::int32_t>(std::max(y0, y1)); }
 };
 
-/// Calls run(row, first_column, last_column) for each row of `rows_from` to `rows_to` that the ray passes, in order. Together the runs
-/// are exactly the cells that the ray passes (but for rounding at corners); a row's run is the same whatever rows are asked for.
+/// Calls run(row, first_column, last_column) for each row of `rows_from` to `rows_to` that the ray
+/// passes, in order. Together the runs are exactly the cells that the ray passes (but for rounding
+/// at corners); a row's run is the same whatever rows are asked for.
 template <class Run>
 void traverse(const Ray& ray, std::int32_t rows_from, std::int32_t rows_to, Run&& run) {
   const bool upward = ray.y0 <= ray.y1;
@@ -33,7 +35,8 @@ void traverse(const Ray& ray, std::int32_t rows_from, std::int32_t rows_to, Run&
   float low = from == bottom ? xa : crossing(from);
   for (std::int32_t r = from; r <= to; ++r) {
     const float high = r == top ? xb : crossing(r + 1);
-    run(r, static_cast<std::int32_t>(std::min(low, high)), static_cast<std::int32_t>(std::max(low, high)));
+    run(r, static_cast<std::int32_t>(std::min(low, high)),
+        static_cast<std::int32_t>(std::max(low, high)));
     low = high;
   }
 }

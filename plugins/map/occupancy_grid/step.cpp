@@ -22,25 +22,40 @@ struct OccupancyGrid : WholeStep {
     is.input("frames", &In::frames, "the scans");
     is.input("trajectory", &In::trajectory, "the sensor's pose for each");
     is.output("map", &Out::map, "log odds of each cell; 0: never seen");
-    is.param("resolution", &Params::resolution).unit("m").range(0.001, 10).doc("edge length of a cell");
-    is.param("hit", &Params::hit).range(1e-3, 10).doc("log odds that a scan adds to a cell in which a ray ends");
-    is.param("miss", &Params::miss).range(1e-3, 10).doc("log odds that a scan takes off a cell that rays only pass");
-    is.param("lowest", &Params::lowest).range(-100, 0).doc("log odds do not fall below: how long a cell remembers that it was free");
-    is.param("highest", &Params::highest).range(0, 100).doc("log odds do not rise above: how long a cell remembers that it was occupied");
-    is.param("max_range", &Params::max_range).unit("m").range(0.1, 1000)
+    is.param("resolution", &Params::resolution)
+        .unit("m")
+        .range(0.001, 10)
+        .doc("edge length of a cell");
+    is.param("hit", &Params::hit)
+        .range(1e-3, 10)
+        .doc("log odds that a scan adds to a cell in which a ray ends");
+    is.param("miss", &Params::miss)
+        .range(1e-3, 10)
+        .doc("log odds that a scan takes off a cell that rays only pass");
+    is.param("lowest", &Params::lowest)
+        .range(-100, 0)
+        .doc("log odds do not fall below: how long a cell remembers that it was free");
+    is.param("highest", &Params::highest)
+        .range(0, 100)
+        .doc("log odds do not rise above: how long a cell remembers that it was occupied");
+    is.param("max_range", &Params::max_range)
+        .unit("m")
+        .range(0.1, 1000)
         .doc("a ray that ends farther away is no hit and only clears its way up to here");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
     if (frames != in.trajectory->size())
-      throw Error("there are " + std::to_string(frames) + " frames but " + std::to_string(in.trajectory->size()) +
+      throw Error("there are " + std::to_string(frames) + " frames but " +
+                  std::to_string(in.trajectory->size()) +
                   " poses in the trajectory; wire the trajectory of these frames");
     std::vector<PlacedScan> scans(frames);
     context.parallel(frames, [&](std::size_t k) {
       scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);
     });
-    Out out{occupancy(scans, params, [&](std::size_t n, const auto& body) { context.parallel(n, body); })};
+    Out out{occupancy(scans, params,
+                      [&](std::size_t n, const auto& body) { context.parallel(n, body); })};
     const auto seen = [&](auto test) {
       return static_cast<std::uint64_t>(std::ranges::count_if(out.map.log_odds, test));
     };

@@ -20,12 +20,14 @@ std::vector<Wall> read_plan(const std::filesystem::path& file) {
       if (have == 0 && word.front() == '#') break;
       double value = 0;
       if (!io::to_number(word, value) || !std::isfinite(value))
-        io::refuse(file, lines.number(), "expected a wall 'x1 y1 x2 y2', found " + io::in_quotes(word));
+        io::refuse(file, lines.number(),
+                   "expected a wall 'x1 y1 x2 y2', found " + io::in_quotes(word));
       if (have < v.size()) v[have] = value;
     }
     if (have == 0) continue;
     if (have != v.size())
-      io::refuse(file, lines.number(), "expected a wall 'x1 y1 x2 y2', found " + std::to_string(have) + " numbers");
+      io::refuse(file, lines.number(),
+                 "expected a wall 'x1 y1 x2 y2', found " + std::to_string(have) + " numbers");
     walls.push_back({{v[0], v[1]}, {v[2], v[3]}});
   }
   if (walls.empty()) io::refuse(file, "holds no wall: give lines 'x1 y1 x2 y2' in metres");
@@ -46,7 +48,8 @@ WallTree::WallTree(std::vector<Wall> walls) : walls_(std::move(walls)) {
 }
 
 void WallTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()),
+                 high = -low;
   for (std::uint32_t k = first; k < first + count; ++k) {
     low = low.min(walls_[k].a.array()).min(walls_[k].b.array());
     high = high.max(walls_[k].a.array()).max(walls_[k].b.array());
@@ -55,8 +58,9 @@ void WallTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t coun
   if (count <= 4) return;
   const int axis = (high - low).x() >= (high - low).y() ? 0 : 1;
   const auto begin = walls_.begin() + first, middle = begin + count / 2;
-  std::nth_element(begin, middle, begin + count,
-                   [axis](const Wall& p, const Wall& q) { return p.a[axis] + p.b[axis] < q.a[axis] + q.b[axis]; });
+  std::nth_element(begin, middle, begin + count, [axis](const Wall& p, const Wall& q) {
+    return p.a[axis] + p.b[axis] < q.a[axis] + q.b[axis];
+  });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   nodes_[node].first = children;
@@ -66,13 +70,15 @@ void WallTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t coun
 }
 
 double WallTree::to_box(std::uint32_t node, const Eigen::Vector2d& p) const {
-  const Eigen::Array2d outside = (nodes_[node].low - p.array()).max(p.array() - nodes_[node].high).max(0.0);
+  const Eigen::Array2d outside =
+      (nodes_[node].low - p.array()).max(p.array() - nodes_[node].high).max(0.0);
   return outside.matrix().norm();
 }
 
 void WallTree::search(std::uint32_t node, const Eigen::Vector2d& p, double& best) const {
   const Node& here = nodes_[node];
-  for (std::uint32_t k = here.first; k < here.first + here.count; ++k) best = std::min(best, distance(walls_[k], p));
+  for (std::uint32_t k = here.first; k < here.first + here.count; ++k)
+    best = std::min(best, distance(walls_[k], p));
   if (here.count > 0) return;
   const double left = to_box(here.first, p), right = to_box(here.first + 1, p);
   const std::uint32_t nearer = left <= right ? here.first : here.first + 1;

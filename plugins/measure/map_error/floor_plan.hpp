@@ -13,8 +13,8 @@ struct Wall {
   Eigen::Vector2d a, b;
 };
 
-/// Reads lines `x1 y1 x2 y2`; blank lines and comments (#) are skipped. Throws Error with file:line: another
-/// number of words, a word that is no number, no wall at all.
+/// Reads lines `x1 y1 x2 y2`; blank lines and comments (#) are skipped. Throws Error with
+/// file:line: another number of words, a word that is no number, no wall at all.
 std::vector<Wall> read_plan(const std::filesystem::path& file);
 
 /// Distance [m] from `p` to the nearest point of `wall`.
@@ -29,7 +29,8 @@ class WallTree {
  private:
   struct Node {
     Eigen::Array2d low, high;
-    std::uint32_t first, count;  ///< walls of a leaf; count 0: the children are `first` and `first` + 1
+    std::uint32_t first,
+        count;  ///< walls of a leaf; count 0: the children are `first` and `first` + 1
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   void search(std::uint32_t node, const Eigen::Vector2d& p, double& best) const;

@@ -68,24 +68,29 @@ PlanarMotion planar_alignment(const PosePairs& pairs) {
     sine += a.x() * b.y() - a.y() * b.x();
     cosine += a.dot(b);
     spread = std::max(spread, a.norm());
-    const double turn = log_rotation(pairs.truth[k].rotation * pairs.estimate[k].rotation.conjugate()).z();
+    const double turn =
+        log_rotation(pairs.truth[k].rotation * pairs.estimate[k].rotation.conjugate()).z();
     heading_sine += std::sin(turn);
     heading_cosine += std::cos(turn);
   }
   PlanarMotion motion;
-  motion.angle = spread > 1e-3 ? std::atan2(sine, cosine) : std::atan2(heading_sine, heading_cosine);
+  motion.angle =
+      spread > 1e-3 ? std::atan2(sine, cosine) : std::atan2(heading_sine, heading_cosine);
   motion.shift = mean_b - motion * mean_a;
   return motion;
 }
 
-MapError map_error(const GridMap& map, const std::vector<Wall>& walls, const PlanarMotion& T_plan_map,
-                   float threshold, double near, const ParallelLoop& parallel) {
+MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
+                   const PlanarMotion& T_plan_map, float threshold, double near,
+                   const ParallelLoop& parallel) {
   std::vector<Eigen::Vector2d> cells;
   for (std::size_t r = 0; r < map.rows; ++r)
     for (std::size_t c = 0; c < map.columns; ++c)
       if (map.log_odds[r * map.columns + c] > threshold)
-        cells.push_back(T_plan_map * (map.origin + map.resolution * Eigen::Vector2d(static_cast<double>(c) + 0.5,
-                                                                                   static_cast<double>(r) + 0.5)));
+        cells.push_back(
+            T_plan_map *
+            (map.origin + map.resolution * Eigen::Vector2d(static_cast<double>(c) + 0.5,
+                                                           static_cast<double>(r) + 0.5)));
   MapError error;
   error.occupied = cells.size();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -100,7 +105,8 @@ MapError map_error(const GridMap& map, const std::vector<Wall>& walls, const Pla
   });
   const auto n = static_cast<double>(cells.size());
   std::ranges::sort(distances);
-  for (const double d : distances) error.mean += d / n, error.rms += d * d / n, error.accuracy += d <= near ? 1 / n : 0;
+  for (const double d : distances)
+    error.mean += d / n, error.rms += d * d / n, error.accuracy += d <= near ? 1 / n : 0;
   error.rms = std::sqrt(error.rms);
   error.largest = distances.back();
   error.percentile_99 = distances[static_cast<std::size_t>(std::ceil(0.99 * n)) - 1];

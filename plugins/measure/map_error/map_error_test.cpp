@@ -80,7 +80,8 @@ TEST(MapError, IsTheDistanceOfOccupiedCellsFromTheWalls) {
 }
 
 TEST(MapError, CountsWallsThatTheMapLacksInCoverageOnly) {
-  const auto error = map_error(wall_map(0.55), {{{0, 0.55}, {4, 0.55}}, {{0, 2}, {12, 2}}}, {}, 0.5f, 0.1, in_order);
+  const auto error = map_error(wall_map(0.55), {{{0, 0.55}, {4, 0.55}}, {{0, 2}, {12, 2}}}, {},
+                               0.5f, 0.1, in_order);
   EXPECT_NEAR(error.mean, 0, 1e-9);
   EXPECT_NEAR(error.coverage, 0.25, 1e-2);
 }
@@ -117,29 +118,36 @@ TEST(MeasureMapError, LaysTheMapOntoThePlanByTheTrajectory) {
   const Pose T_plan_map(exp_rotation({0, 0, 0.7}), {100, 50, 0});
   Trajectory truth = walk();
   for (Pose& pose : truth.T_world_frame) pose = T_plan_map * pose;
-  const auto a = T_plan_map * Eigen::Vector3d(0, 0.55, 0), b = T_plan_map * Eigen::Vector3d(4, 0.55, 0);
+  const auto a = T_plan_map * Eigen::Vector3d(0, 0.55, 0),
+             b = T_plan_map * Eigen::Vector3d(4, 0.55, 0);
   std::string plan = "# one wall\n";
   for (const double v : {a.x(), a.y(), b.x(), b.y()}) plan += std::to_string(v) + " ";
   StepRun step(*plumb_module());
   step.with("map", wall_map(0.55)).with("trajectory", walk());
-  step.set("plan", folder.write("plan.txt", plan).string()).set("truth", folder.write("truth.tum", tum_text(truth)).string());
+  step.set("plan", folder.write("plan.txt", plan).string())
+      .set("truth", folder.write("truth.tum", tum_text(truth)).string());
   TestContext context;
   const auto metrics = step.run<Metrics>("metrics", context);
   ASSERT_EQ(metrics.numbers.size(), 7u);
   EXPECT_EQ(metrics.numbers[0].name, "mean");
-  EXPECT_LT(metrics.numbers[2].value, 1e-5);   // largest
+  EXPECT_LT(metrics.numbers[2].value, 1e-5);       // largest
   EXPECT_NEAR(metrics.numbers[5].value, 1, 1e-9);  // coverage
 }
 
 TEST(MeasureMapError, SaysThatThereIsNoPlanOrNoWall) {
   TestContext context;
-  EXPECT_THAT(StepRun(*plumb_module()).with("map", wall_map(0.55)).run<Metrics>("metrics", context).notes,
-              ElementsAre(HasSubstr("no plan was given")));
+  EXPECT_THAT(
+      StepRun(*plumb_module()).with("map", wall_map(0.55)).run<Metrics>("metrics", context).notes,
+      ElementsAre(HasSubstr("no plan was given")));
   const io::TestFolder folder;
   auto empty = wall_map(0.55);
   empty.log_odds.assign(empty.log_odds.size(), 0);
-  EXPECT_THAT(StepRun(*plumb_module()).with("map", empty).set("plan", folder.write("p", "0 0 1 1\n").string())
-                  .run<Metrics>("metrics", context).notes, ElementsAre(HasSubstr("no occupied cell")));
+  EXPECT_THAT(StepRun(*plumb_module())
+                  .with("map", empty)
+                  .set("plan", folder.write("p", "0 0 1 1\n").string())
+                  .run<Metrics>("metrics", context)
+                  .notes,
+              ElementsAre(HasSubstr("no occupied cell")));
 }
 
 TEST(MeasureMapError, RefusesATruthThatDoesNotFitAndAPlanThatIsNone) {
@@ -147,12 +155,19 @@ TEST(MeasureMapError, RefusesATruthThatDoesNotFitAndAPlanThatIsNone) {
   const auto plan = folder.write("plan.txt", "0 0 1 1\n").string();
   TestContext context;
   StepRun step(*plumb_module());
-  step.with("map", wall_map(0.55)).set("plan", plan).set("truth", folder.write("t.tum", "500 0 0 0 0 0 0 1\n").string());
-  EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }), HasSubstr("no trajectory to lay onto it"));
+  step.with("map", wall_map(0.55))
+      .set("plan", plan)
+      .set("truth", folder.write("t.tum", "500 0 0 0 0 0 0 1\n").string());
+  EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }),
+              HasSubstr("no trajectory to lay onto it"));
   step.with("trajectory", walk());
-  EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }), HasSubstr("no pose has the stamp"));
-  const auto said = [&](const std::string& text) { return io::refusal([&] { read_plan(folder.write("p", text)); }); };
-  EXPECT_THAT(said("0 0 1 1\n0 0 1\n"), HasSubstr("p:2: expected a wall 'x1 y1 x2 y2', found 3 numbers"));
+  EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }),
+              HasSubstr("no pose has the stamp"));
+  const auto said = [&](const std::string& text) {
+    return io::refusal([&] { read_plan(folder.write("p", text)); });
+  };
+  EXPECT_THAT(said("0 0 1 1\n0 0 1\n"),
+              HasSubstr("p:2: expected a wall 'x1 y1 x2 y2', found 3 numbers"));
   EXPECT_THAT(said("0 0 1 nan\n"), HasSubstr("found 'nan'"));
   EXPECT_THAT(said("# none\n"), HasSubstr("holds no wall"));
 }

@@ -26,16 +26,28 @@ struct MeasureMapError : WholeStep {
     is.name("measure.map_error").version(1).source("[Zhang2023] 3");
     is.summary("Measures how far the walls of a map are from those of the true floor plan.");
     is.input("map", &In::map, "the map");
-    is.optional_input("trajectory", &In::trajectory,
-                      "the poses that the map was made with; with 'truth' they say how it lies on the plan");
-    is.output("metrics", &Out::metrics, "mean, rms, largest, percentile_99, accuracy, coverage, occupied");
-    is.param("plan", &Params::plan).doc("true walls, lines 'x1 y1 x2 y2' [m]; none: a note, and no numbers");
+    is.optional_input(
+        "trajectory", &In::trajectory,
+        "the poses that the map was made with; with 'truth' they say how it lies on the plan");
+    is.output("metrics", &Out::metrics,
+              "mean, rms, largest, percentile_99, accuracy, coverage, occupied");
+    is.param("plan", &Params::plan)
+        .doc("true walls, lines 'x1 y1 x2 y2' [m]; none: a note, and no numbers");
     is.param("truth", &Params::truth)
-        .doc("TUM file with the true poses in the plan's coordinates; none: the map is in these coordinates already");
-    is.param("tolerance", &Params::tolerance).unit("s").range(1e-9, 10)
+        .doc(
+            "TUM file with the true poses in the plan's coordinates; none: the map is in these "
+            "coordinates already");
+    is.param("tolerance", &Params::tolerance)
+        .unit("s")
+        .range(1e-9, 10)
         .doc("poses whose stamps differ by less belong together");
-    is.param("occupied", &Params::occupied).range(0.5, 0.999).doc("probability above which a cell is a wall");
-    is.param("near", &Params::near).unit("m").range(0.001, 10).doc("a cell so near to a wall is right, for accuracy and coverage");
+    is.param("occupied", &Params::occupied)
+        .range(0.5, 0.999)
+        .doc("probability above which a cell is a wall");
+    is.param("near", &Params::near)
+        .unit("m")
+        .range(0.001, 10)
+        .doc("a cell so near to a wall is right, for accuracy and coverage");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -48,16 +60,22 @@ struct MeasureMapError : WholeStep {
     PlanarMotion T_plan_map;
     if (params.truth) {
       if (!in.trajectory)
-        throw Error("measure.map_error has a truth but no trajectory to lay onto it: wire 'trajectory' or set 'truth: none'");
-      const PosePairs pairs = pair_by_stamp(*in.trajectory, read_tum(*params.truth), params.tolerance);
+        throw Error(
+            "measure.map_error has a truth but no trajectory to lay onto it: wire 'trajectory' or "
+            "set 'truth: none'");
+      const PosePairs pairs =
+          pair_by_stamp(*in.trajectory, read_tum(*params.truth), params.tolerance);
       if (pairs.size() == 0)
-        throw Error(params.truth->string() + ": no pose has the stamp of a pose of the trajectory, so the map cannot be laid onto the plan; "
+        throw Error(params.truth->string() +
+                    ": no pose has the stamp of a pose of the trajectory, so the map cannot be "
+                    "laid onto the plan; "
                     "look whether both count the same seconds");
       T_plan_map = planar_alignment(pairs);
     }
     const auto threshold = static_cast<float>(std::log(params.occupied / (1 - params.occupied)));
-    const MapError error = map_error(*in.map, walls, T_plan_map, threshold, params.near,
-                                     [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    const MapError error =
+        map_error(*in.map, walls, T_plan_map, threshold, params.near,
+                  [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     if (error.occupied == 0) {
       out.metrics.notes.push_back("the map has no occupied cell, so it has no error");
       return out;

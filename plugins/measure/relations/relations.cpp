@@ -43,7 +43,8 @@ RelationsFile read_relations(const std::filesystem::path& file) {
       const auto word = io::next_word(line);
       if (word.empty() || (have == 0 && word.front() == '#')) break;
       if (!io::to_number(word, v[have]) || !std::isfinite(v[have]))
-        io::refuse(file, lines.number(), "expected 'from to x y z roll pitch yaw', found " + io::in_quotes(word));
+        io::refuse(file, lines.number(),
+                   "expected 'from to x y z roll pitch yaw', found " + io::in_quotes(word));
     }
     if (have < v.size()) {
       result.too_short += have > 0;
@@ -52,7 +53,8 @@ RelationsFile read_relations(const std::filesystem::path& file) {
     const Eigen::Quaterniond rotation = about(v[7], Eigen::Vector3d::UnitZ()) *
                                         about(v[6], Eigen::Vector3d::UnitY()) *
                                         about(v[5], Eigen::Vector3d::UnitX());
-    result.relations.push_back({v[0], v[1], {rotation.normalized(), Eigen::Vector3d(v[2], v[3], v[4])}});
+    result.relations.push_back(
+        {v[0], v[1], {rotation.normalized(), Eigen::Vector3d(v[2], v[3], v[4])}});
   }
   if (result.relations.empty())
     io::refuse(file, "holds no relation: give lines 'from to x y z roll pitch yaw'");
@@ -77,8 +79,8 @@ std::size_t NearestStamp::of(double stamp) const {
   return down < up ? before->second : after->second;
 }
 
-RelationErrors relation_errors(const std::vector<TrueRelation>& relations, const Trajectory& trajectory,
-                               double tolerance) {
+RelationErrors relation_errors(const std::vector<TrueRelation>& relations,
+                               const Trajectory& trajectory, double tolerance) {
   const NearestStamp nearest(trajectory.stamps);
   std::vector<double> translation, rotation;
   if (trajectory.size() > 0) {
@@ -93,8 +95,8 @@ RelationErrors relation_errors(const std::vector<TrueRelation>& relations, const
       rotation.push_back(angle(error));
     }
   }
-  return {translation.size(), spread_of(translation), spread_of(rotation), spread_of(squared(translation)),
-          spread_of(squared(rotation))};
+  return {translation.size(), spread_of(translation), spread_of(rotation),
+          spread_of(squared(translation)), spread_of(squared(rotation))};
 }
 
 }  // namespace plumb

@@ -19,30 +19,39 @@ struct MeasureRelations : WholeStep {
   static void describe(Declaration<MeasureRelations>& is) {
     is.name("measure.relations").version(1).source("[Kuemmerle2009]");
     is.summary("Measures trajectories against true relative poses between moments.");
-    is.input("trajectories", &In::trajectories, "any number of trajectories; numbers are named after the label");
+    is.input("trajectories", &In::trajectories,
+             "any number of trajectories; numbers are named after the label");
     is.output("metrics", &Out::metrics,
-              "for each trajectory translation and rotation error, absolute and squared, mean and deviation");
+              "for each trajectory translation and rotation error, absolute and squared, mean and "
+              "deviation");
     is.param("relations", &Params::relations)
-        .doc("file with lines 'from to x y z roll pitch yaw' [s, m, rad]; none: a note, and no numbers");
-    is.param("tolerance", &Params::tolerance).unit("s").range(0, 1000)
+        .doc(
+            "file with lines 'from to x y z roll pitch yaw' [s, m, rad]; none: a note, and no "
+            "numbers");
+    is.param("tolerance", &Params::tolerance)
+        .unit("s")
+        .range(0, 1000)
         .doc("a moment belongs to the frame nearest in time if that is at most so far away");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     Out out;
     if (!params.relations) {
-      out.metrics.notes.push_back("no relations were given, so the trajectories' relative errors are not known");
+      out.metrics.notes.push_back(
+          "no relations were given, so the trajectories' relative errors are not known");
       return out;
     }
     const RelationsFile file = read_relations(*params.relations);
-    if (file.too_short) context.count("lines of the relations with fewer than 8 words left out", file.too_short);
+    if (file.too_short)
+      context.count("lines of the relations with fewer than 8 words left out", file.too_short);
     for (const auto& [label, trajectory] : in.trajectories) {
       const RelationErrors errors = relation_errors(file.relations, *trajectory, params.tolerance);
       const std::string whose = label.empty() ? "the trajectory" : "'" + label + "'";
       if (errors.used < file.relations.size()) {
         const std::string sentence = std::to_string(file.relations.size() - errors.used) + " of " +
-                                     std::to_string(file.relations.size()) + " relations have no frame of " +
-                                     whose + " within the tolerance and do not count";
+                                     std::to_string(file.relations.size()) +
+                                     " relations have no frame of " + whose +
+                                     " within the tolerance and do not count";
         out.metrics.notes.push_back(sentence);
         context.warn(sentence + "; look whether both files are of the same run");
       }

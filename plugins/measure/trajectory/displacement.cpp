@@ -9,7 +9,9 @@ Eigen::Vector2d mean_displacement(const PosePairs& pairs) {
   const Pose T_truth_estimate = pairs.truth[0] * pairs.estimate[0].inverse();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    sum += (T_truth_estimate * pairs.estimate[k].translation - pairs.truth[k].translation).head<2>().cwiseAbs();
+    sum += (T_truth_estimate * pairs.estimate[k].translation - pairs.truth[k].translation)
+               .head<2>()
+               .cwiseAbs();
   return sum / static_cast<double>(pairs.size());
 }
 

@@ -132,14 +132,20 @@ Sorted sorted(std::string_view text) {
   for (std::string_view line; lines.next(line);) {
     const auto name = io::next_word(line);
     const auto add = [&](Kind kind) { result[kind].push_back({line, lines.number()}); };
-    if (name == "ODOM") add(Kind::odometry);
-    else if (name == "FLASER") add(Kind::flaser);
-    else if (name == "ROBOTLASER1") add(Kind::robot_laser);
-    else if (name == "RAWLASER1") add(Kind::raw_laser);
-    else if (name == "RLASER" || name == "ROBOTLASER2" || name == "RAWLASER2") ++result.second_laser;
+    if (name == "ODOM")
+      add(Kind::odometry);
+    else if (name == "FLASER")
+      add(Kind::flaser);
+    else if (name == "ROBOTLASER1")
+      add(Kind::robot_laser);
+    else if (name == "RAWLASER1")
+      add(Kind::raw_laser);
+    else if (name == "RLASER" || name == "ROBOTLASER2" || name == "RAWLASER2")
+      ++result.second_laser;
     else if (name == "PARAM" && io::next_word(line) == "robot_frontlaser_offset") {
       double offset = 0;
-      if (io::to_number(io::next_word(line), offset) && std::isfinite(offset)) result.front_laser_offset = offset;
+      if (io::to_number(io::next_word(line), offset) && std::isfinite(offset))
+        result.front_laser_offset = offset;
     }
   }
   return result;
@@ -164,14 +170,15 @@ void place_by_odometry(std::vector<LaserScan>& scans, const std::vector<std::siz
     const double between = b.stamp - a.stamp;
     const double s = between > 0 ? std::clamp((scans[k].stamp - a.stamp) / between, 0.0, 1.0) : 0.0;
     const double turn = std::remainder(b.pose.theta - a.pose.theta, 2 * M_PI);
-    scans[k].robot = PlanarPose{a.pose.x + s * (b.pose.x - a.pose.x), a.pose.y + s * (b.pose.y - a.pose.y),
-                                a.pose.theta + s * turn};
+    scans[k].robot = PlanarPose{a.pose.x + s * (b.pose.x - a.pose.x),
+                                a.pose.y + s * (b.pose.y - a.pose.y), a.pose.theta + s * turn};
   }
 }
 
 }  // namespace
 
-CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text, const ParallelLoop& parallel) {
+CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
+                       const ParallelLoop& parallel) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     io::refuse(file, "is empty: give a CARMEN log with FLASER or ROBOTLASER1 lines");
   Sorted messages = sorted(text);
@@ -209,7 +216,8 @@ CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
   if (log.scans.empty())
     io::refuse(file, log.first_damaged,
                "all " + std::to_string(lines.size()) +
-                   " laser messages are damaged, this one first: the number of ranges or of the words behind them is wrong");
+                   " laser messages are damaged, this one first: the number of ranges or of the "
+                   "words behind them is wrong");
   if (kind == Kind::raw_laser) place_by_odometry(log.scans, line_of, messages[Kind::odometry]);
   return log;
 }

@@ -65,8 +65,9 @@ void unpack_stream(const std::filesystem::path& file, std::string_view& packed, 
     filled += made;
     if (outcome == Outcome::end_of_stream) break;
     if (outcome == Outcome::damaged)
-      io::refuse(file, "is damaged: its " + std::string(Codec::name) + " data cannot be unpacked after " +
-                           std::to_string(filled) + " bytes of text; fetch the file again");
+      io::refuse(file, "is damaged: its " + std::string(Codec::name) +
+                           " data cannot be unpacked after " + std::to_string(filled) +
+                           " bytes of text; fetch the file again");
     if (packed.empty() && made == 0)
       io::refuse(file, "is cut off: its " + std::string(Codec::name) + " data end after " +
                            std::to_string(filled) + " bytes of text; fetch the file again");
@@ -80,7 +81,8 @@ std::string unpack(const std::filesystem::path& file, std::string_view packed, s
   while (packed.starts_with(Codec::magic)) unpack_stream<Codec>(file, packed, text, most);
   // Archives may be padded with zeros.
   if (packed.find_first_not_of('\0') != std::string_view::npos)
-    io::refuse(file, "is damaged: other bytes follow its " + std::string(Codec::name) + " data; fetch the file again");
+    io::refuse(file, "is damaged: other bytes follow its " + std::string(Codec::name) +
+                         " data; fetch the file again");
   return text;
 }
 

@@ -9,17 +9,20 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double longest = 200;  ///< [m]: no 2-D scanner of a robot sees farther
-constexpr double shortest = 3.9;  ///< [m]: no 2-D scanner of a robot sees less far (Hokuyo URG-04LX: 4.095 m)
+constexpr double shortest =
+    3.9;  ///< [m]: no 2-D scanner of a robot sees less far (Hokuyo URG-04LX: 4.095 m)
 constexpr double beside = 0.99;  ///< readings from this share of the maximum on are the maximum
 
-/// Whether readings of `mm` millimetres come from beams all over the fan, not from a wall before a standing robot.
+/// Whether readings of `mm` millimetres come from beams all over the fan, not from a wall before a
+/// standing robot.
 bool all_over(const std::vector<LaserScan>& scans, std::size_t mm) {
   std::vector<bool> seen;
   std::size_t beams = 0;
   for (const LaserScan& scan : scans) {
     if (scan.ranges.size() > seen.size()) seen.resize(scan.ranges.size());
     for (std::size_t k = 0; k < scan.ranges.size(); ++k)
-      if (!seen[k] && std::lround(scan.ranges[k] * 1000) == static_cast<long>(mm)) seen[k] = true, ++beams;
+      if (!seen[k] && std::lround(scan.ranges[k] * 1000) == static_cast<long>(mm))
+        seen[k] = true, ++beams;
   }
   return beams >= std::max<std::size_t>(3, seen.size() / 20);
 }
@@ -31,12 +34,23 @@ Fan fan_of(const LaserScan& scan, std::optional<double> field_of_view) {
   if (field_of_view) return {-*field_of_view / 2, n > 1 ? *field_of_view / (n - 1) : 0.0};
   if (scan.step > 0) return {scan.start, scan.step};
   switch (scan.ranges.size()) {
-    case 180: case 181: return {-90 * degree, degree};
-    case 360: case 361: return {-90 * degree, degree / 2};
-    case 720: case 721: return {-90 * degree, degree / 4};
-    case 540: case 541: return {-135 * degree, degree / 2};
-    case 1080: case 1081: return {-135 * degree, degree / 4};
-    default: return {-90 * degree, n > 1 ? 180 * degree / (n - 1) : 0.0, false};
+    case 180:
+    case 181:
+      return {-90 * degree, degree};
+    case 360:
+    case 361:
+      return {-90 * degree, degree / 2};
+    case 720:
+    case 721:
+      return {-90 * degree, degree / 4};
+    case 540:
+    case 541:
+      return {-135 * degree, degree / 2};
+    case 1080:
+    case 1081:
+      return {-135 * degree, degree / 4};
+    default:
+      return {-90 * degree, n > 1 ? 180 * degree / (n - 1) : 0.0, false};
   }
 }
 
@@ -46,16 +60,20 @@ std::optional<double> repeated_maximum(const std::vector<LaserScan>& scans) {
   std::uint64_t all = 0;
   for (const LaserScan& scan : scans)
     for (const float range : scan.ranges)
-      if (range > 0 && range <= longest) ++readings[static_cast<std::size_t>(std::lround(range * 1000))], ++all;
+      if (range > 0 && range <= longest)
+        ++readings[static_cast<std::size_t>(std::lround(range * 1000))], ++all;
   const double many = std::max(3.0, 1e-4 * static_cast<double>(all));
   std::uint64_t above = 0;
-  for (std::size_t mm = readings.size(); mm-- > static_cast<std::size_t>(shortest * 1000); above += readings[mm]) {
+  for (std::size_t mm = readings.size(); mm-- > static_cast<std::size_t>(shortest * 1000);
+       above += readings[mm]) {
     const double here = readings[mm];
     if (here < many) continue;
-    // It is the end of what is seen, but for a few glitches, and sticks out of what is seen before it.
+    // It is the end of what is seen, but for a few glitches, and sticks out of what is seen before
+    // it.
     std::uint64_t before = 0;
     for (std::size_t k = mm * 90 / 100; k < mm * 99 / 100; ++k) before += readings[k];
-    const bool end = static_cast<double>(above) <= here / 10, sticks_out = here * 9 > 3.0 * static_cast<double>(before);
+    const bool end = static_cast<double>(above) <= here / 10,
+               sticks_out = here * 9 > 3.0 * static_cast<double>(before);
     if (end && sticks_out && all_over(scans, mm)) return beside * static_cast<double>(mm) / 1000;
     return std::nullopt;
   }
@@ -69,19 +87,24 @@ Cloud cloud_of(const LaserScan& scan, const Fan& fan, const Limits& limits, Left
   LeftOut& left = left_out ? *left_out : ignored;
   for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
     const double range = scan.ranges[k];
-    if (std::isnan(range) || range < 0) ++left.no_number;
-    else if (range < limits.low) ++left.too_near;
-    else if (range >= limits.high) ++left.nothing_seen;
+    if (std::isnan(range) || range < 0)
+      ++left.no_number;
+    else if (range < limits.low)
+      ++left.too_near;
+    else if (range >= limits.high)
+      ++left.nothing_seen;
     else {
       const double angle = fan.start + static_cast<double>(k) * fan.step;
-      cloud.add({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0});
+      cloud.add({static_cast<float>(range * std::cos(angle)),
+                 static_cast<float>(range * std::sin(angle)), 0});
     }
   }
   return cloud;
 }
 
 Pose in_space(const PlanarPose& pose) {
-  return {Eigen::Quaterniond(std::cos(pose.theta / 2), 0, 0, std::sin(pose.theta / 2)), {pose.x, pose.y, 0}};
+  return {Eigen::Quaterniond(std::cos(pose.theta / 2), 0, 0, std::sin(pose.theta / 2)),
+          {pose.x, pose.y, 0}};
 }
 
 Pose mounting_of(const std::vector<LaserScan>& scans, double offset) {
@@ -92,7 +115,8 @@ Pose mounting_of(const std::vector<LaserScan>& scans, double offset) {
     const Pose mounting = in_space(*scan.robot).inverse() * in_space(*scan.laser);
     if (!first) first = mounting;
     const Pose difference = first->inverse() * mounting;
-    if (difference.translation.norm() > 5e-3 || angle(difference) > 0.1 * degree) return by_parameter;
+    if (difference.translation.norm() > 5e-3 || angle(difference) > 0.1 * degree)
+      return by_parameter;
   }
   return first.value_or(by_parameter);
 }

@@ -29,30 +29,46 @@ struct Carmen : WholeStep {
 
   static void describe(Declaration<Carmen>& is) {
     is.name("source.carmen").version(1).source("CARMEN's log format");
-    is.summary("Reads the scans of a 2-D laser and their odometry from a CARMEN log, packed or not.");
+    is.summary(
+        "Reads the scans of a 2-D laser and their odometry from a CARMEN log, packed or not.");
     is.output("frames", &Out::frames, "one scan a frame: points in the laser's coordinates, z = 0");
-    is.output("trajectory", &Out::trajectory, "stamp and pose of the laser for every scan, in the order of the file");
-    is.param("path", &Params::path).required()
-        .doc("log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are unpacked");
+    is.output("trajectory", &Out::trajectory,
+              "stamp and pose of the laser for every scan, in the order of the file");
+    is.param("path", &Params::path)
+        .required()
+        .doc(
+            "log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are "
+            "unpacked");
     is.choice("odometry", &Params::odometry,
               {{"use", Odometry::use, "poses as the wheels gave them"},
                {"ignore", Odometry::ignore, "every pose is the identity; stamps are kept"}})
         .doc("what the poses of the trajectory are");
-    is.param("min_range", &Params::min_range).unit("m").range(0, 100)
+    is.param("min_range", &Params::min_range)
+        .unit("m")
+        .range(0, 100)
         .doc("nearer readings are dropped: nothing came back, or the robot saw itself");
-    is.param("max_range", &Params::max_range).unit("m").range(0.01, 1000)
+    is.param("max_range", &Params::max_range)
+        .unit("m")
+        .range(0.01, 1000)
         .doc("readings from here on saw nothing and are dropped; none: found from the log");
-    is.param("field_of_view", &Params::field_of_view).unit("rad").range(1e-3, 6.2831853071795862)
-        .doc("angle from the first beam to the last, centred ahead; none: as the log says, or CARMEN's convention");
+    is.param("field_of_view", &Params::field_of_view)
+        .unit("rad")
+        .range(1e-3, 6.2831853071795862)
+        .doc(
+            "angle from the first beam to the last, centred ahead; none: as the log says, or "
+            "CARMEN's convention");
   }
 
   Out run(const In&, const Params& params, Context& context) const {
-    const ParallelLoop parallel = [&](std::size_t n, const auto& body) { context.parallel(n, body); };
+    const ParallelLoop parallel = [&](std::size_t n, const auto& body) {
+      context.parallel(n, body);
+    };
     const std::string text = unpacked(params.path);
     auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));
     const auto& scans = log->scans;
     if (scans.size() < 2)
-      io::refuse(params.path, "has 1 whole scan, but at least 2 are needed: there is nothing to straighten");
+      io::refuse(params.path,
+                 "has 1 whole scan, but at least 2 are needed: there is nothing to straighten");
     report(params, *log, context);
 
     const double repeated = repeated_maximum(scans).value_or(80);
@@ -67,7 +83,8 @@ struct Carmen : WholeStep {
     out.frames.keys.resize(scans.size());
     std::vector<LeftOut> left(scans.size());
     context.parallel(scans.size(), [&](std::size_t k) {
-      out.frames.keys[k] = content_hash(cloud_of(scans[k], fan(scans[k]), limits(scans[k]), &left[k]));
+      out.frames.keys[k] =
+          content_hash(cloud_of(scans[k], fan(scans[k]), limits(scans[k]), &left[k]));
     });
     LeftOut sum;
     for (const LeftOut& l : left)
@@ -89,7 +106,8 @@ struct Carmen : WholeStep {
     Trajectory trajectory;
     for (const LaserScan& scan : log.scans) {
       trajectory.stamps.push_back(scan.stamp);
-      trajectory.T_world_frame.push_back(use_odometry && scan.robot ? in_space(*scan.robot) * T_robot_laser : Pose());
+      trajectory.T_world_frame.push_back(
+          use_odometry && scan.robot ? in_space(*scan.robot) * T_robot_laser : Pose());
     }
     return trajectory;
   }
@@ -121,10 +139,14 @@ struct Carmen : WholeStep {
                    " with words that are no numbers are left out; this line is the first");
     count(context, "damaged scans left out", log.cut + log.not_numbers);
     if (unknown)
-      context.warn(file + ": " + std::to_string(unknown) + " scans have " + std::to_string(scans[0].ranges.size()) +
-                   " beams or another number of no known scanner; they are taken as 180 degrees: set field_of_view if that is wrong");
+      context.warn(file + ": " + std::to_string(unknown) + " scans have " +
+                   std::to_string(scans[0].ranges.size()) +
+                   " beams or another number of no known scanner; they are taken as 180 degrees: "
+                   "set field_of_view if that is wrong");
     if (params.odometry == Odometry::use && !moves)
-      context.warn(file + ": has no odometry, or the robot never moves by it; every pose is the same: set 'odometry: ignore' if that is right");
+      context.warn(file +
+                   ": has no odometry, or the robot never moves by it; every pose is the same: set "
+                   "'odometry: ignore' if that is right");
   }
 };
 

@@ -12,7 +12,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Three columns, two rows; upper row (larger y): occupied, free, unknown; lower row: undecided, never seen, occupied.
+/// Three columns, two rows; upper row (larger y): occupied, free, unknown; lower row: undecided,
+/// never seen, occupied.
 GridMap sample() {
   GridMap map;
   map.resolution = 0.05;
@@ -25,7 +26,10 @@ GridMap sample() {
 
 Document written(const std::string& port, const std::string& name = "map") {
   TestContext context;
-  return StepRun(*plumb_module()).with("map", sample()).set("name", name).run<Document>(port, context);
+  return StepRun(*plumb_module())
+      .with("map", sample())
+      .set("name", name)
+      .run<Document>(port, context);
 }
 
 TEST(WriteMap2d, WritesPgmWithTheTopRowFirst) {
@@ -34,20 +38,23 @@ TEST(WriteMap2d, WritesPgmWithTheTopRowFirst) {
   const std::string header = "P5\n3 2\n255\n";
   ASSERT_TRUE(document.bytes.starts_with(header));
   std::vector<int> pixels;
-  for (const char c : document.bytes.substr(header.size())) pixels.push_back(static_cast<std::uint8_t>(c));
+  for (const char c : document.bytes.substr(header.size()))
+    pixels.push_back(static_cast<std::uint8_t>(c));
   EXPECT_THAT(pixels, ElementsAre(0, 254, 205, 205, 205, 0));
 }
 
 TEST(WriteMap2d, WritesTheYamlThatMapServerReads) {
   const auto document = written("yaml", "floor");
   EXPECT_EQ(document.name, "floor.yaml");
-  EXPECT_EQ(document.bytes,
-            "image: floor.pgm\nmode: trinary\nresolution: 0.05\norigin: [-1.25, 2.5, 0.0]\nnegate: 0\n"
-            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  EXPECT_EQ(
+      document.bytes,
+      "image: floor.pgm\nmode: trinary\nresolution: 0.05\norigin: [-1.25, 2.5, 0.0]\nnegate: 0\n"
+      "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
 TEST(WriteMap2d, IsReadBackByMapServersRuleAsItWasDecided) {
-  // map_server: p = (255 - grey) / 255; occupied above occupied_thresh, free below free_thresh, else unknown.
+  // map_server: p = (255 - grey) / 255; occupied above occupied_thresh, free below free_thresh,
+  // else unknown.
   const auto read = [](int grey) {
     const double p = (255 - grey) / 255.0;
     return p > 0.65 ? 'o' : p < 0.196 ? 'f' : '?';
@@ -75,7 +82,8 @@ TEST(WriteMap2d, RefusesNamesWithAFolderAndMapsWithoutCells) {
   EXPECT_THROW(step.parameters({{"name", std::string("../map")}}), Error);
   EXPECT_THROW(step.parameters({{"occupied", 0.65}, {"free", 0.7}}), Error);
   TestContext context;
-  EXPECT_THROW(StepRun(*plumb_module()).with("map", GridMap()).run<Document>("pgm", context), Error);
+  EXPECT_THROW(StepRun(*plumb_module()).with("map", GridMap()).run<Document>("pgm", context),
+               Error);
 }
 
 }  // namespace

@@ -38,19 +38,23 @@ double probability(float log_odds) { return 1 / (1 + std::exp(-double{log_odds})
 GreyImage decided(const GridMap& map, const Thresholds& thresholds) {
   const auto log_odds = [](double p) { return std::log(p / (1 - p)); };
   const double occupied = log_odds(thresholds.occupied), free = log_odds(thresholds.free);
-  return painted(map, [&](float v) -> std::uint8_t { return v > occupied ? 0 : v < free ? 254 : unknown; });
+  return painted(map, [&](float v) -> std::uint8_t {
+    return v > occupied ? 0 : v < free ? 254 : unknown;
+  });
 }
 
 GreyImage shaded(const GridMap& map) {
   return painted(map, [](float v) {
     const double p = probability(v);
-    const double grey = p < 0.5 ? unknown + (255 - unknown) * std::min(1.0, (0.5 - p) / 0.35) : 2 * unknown * (1 - p);
+    const double grey = p < 0.5 ? unknown + (255 - unknown) * std::min(1.0, (0.5 - p) / 0.35)
+                                : 2 * unknown * (1 - p);
     return static_cast<std::uint8_t>(std::lround(grey));
   });
 }
 
 std::string pgm_bytes(const GreyImage& image) {
-  std::string bytes = "P5\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
+  std::string bytes =
+      "P5\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
   bytes.append(reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size());
   return bytes;
 }
@@ -70,9 +74,10 @@ std::string png_bytes(const GreyImage& image) {
 }
 
 std::string map_yaml(const GridMap& map, const std::string& image, const Thresholds& thresholds) {
-  return "image: " + image + "\nmode: trinary\nresolution: " + text_of(map.resolution) + "\norigin: [" +
-         text_of(map.origin.x()) + ", " + text_of(map.origin.y()) + ", 0.0]\nnegate: 0\noccupied_thresh: " +
-         text_of(thresholds.occupied) + "\nfree_thresh: " + text_of(thresholds.free) + "\n";
+  return "image: " + image + "\nmode: trinary\nresolution: " + text_of(map.resolution) +
+         "\norigin: [" + text_of(map.origin.x()) + ", " + text_of(map.origin.y()) +
+         ", 0.0]\nnegate: 0\noccupied_thresh: " + text_of(thresholds.occupied) +
+         "\nfree_thresh: " + text_of(thresholds.free) + "\n";
 }
 
 }  // namespace plumb

@@ -8,7 +8,8 @@
 
 namespace plumb {
 
-/// Probabilities at which a cell is called occupied or free; between them, and never seen, it is unknown.
+/// Probabilities at which a cell is called occupied or free; between them, and never seen, it is
+/// unknown.
 struct Thresholds {
   double occupied = 0.65, free = 0.196;
 };
@@ -25,7 +26,8 @@ double probability(float log_odds);
 /// Three values, as map_saver writes them: 0 occupied, 254 free, 205 unknown.
 GreyImage decided(const GridMap& map, const Thresholds& thresholds);
 
-/// For looking at: by probability from white (15 % and below) over 205 (even, or never seen) to black (certainly occupied).
+/// For looking at: by probability from white (15 % and below) over 205 (even, or never seen) to
+/// black (certainly occupied).
 GreyImage shaded(const GridMap& map);
 
 /// Binary PGM (P5).
@@ -34,7 +36,8 @@ std::string pgm_bytes(const GreyImage& image);
 /// PNG, 8 bits grey. Throws Error when libpng does.
 std::string png_bytes(const GreyImage& image);
 
-/// The YAML beside the image: image, mode, resolution, origin, negate, occupied_thresh, free_thresh. Numbers read back as the same.
+/// The YAML beside the image: image, mode, resolution, origin, negate, occupied_thresh,
+/// free_thresh. Numbers read back as the same.
 std::string map_yaml(const GridMap& map, const std::string& image, const Thresholds& thresholds);
 
 }  // namespace plumb

@@ -10,10 +10,10 @@ extern "C" const PlumbModule* plumb_module();
 namespace plumb {
 namespace {
 
-Document written(const ParameterValues& values) {
+Document written(const ParameterValues& values, std::vector<double> stamps = {1.5, 2.25}) {
   const Step& step = *plumb_module()->steps[0];
   Trajectory trajectory;
-  trajectory.stamps = {1.5, 2.25};
+  trajectory.stamps = std::move(stamps);
   trajectory.T_world_frame = {Pose(), Pose(Eigen::Quaterniond(0, 0, 0, 1), Eigen::Vector3d(1, -2, 3))};
   PortInput input;
   input.wired = true;
@@ -32,6 +32,12 @@ TEST(WriteTrajectory, WritesALineAFrameWithStampPositionAndQuaternion) {
   for (double& x : v) ASSERT_TRUE(lines >> x);
   EXPECT_THAT(std::vector<double>(v, v + 8), testing::ElementsAre(1.5, 0, 0, 0, 0, 0, 0, 1));
   EXPECT_THAT(std::vector<double>(v + 8, v + 16), testing::ElementsAre(2.25, 1, -2, 3, 0, 0, 1, 0));
+}
+
+TEST(WriteTrajectory, KeepsTheOrderOfFramesWhereStampsStepBack) {
+  const auto lines = written({}, {976052857.5, 976052857.25}).bytes;
+  EXPECT_TRUE(lines.starts_with("976052857.500000 "));
+  EXPECT_THAT(lines, testing::HasSubstr("\n976052857.250000 "));
 }
 
 TEST(WriteTrajectory, WritesMatricesForKitti) {
