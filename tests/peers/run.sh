@@ -41,6 +41,8 @@ done
 [[ -z "$first" || "$first" =~ ^[1-9][0-9]*$ ]] || refuse "--first takes a number of scans, not '$first'"
 [[ -f "$judge" ]] || refuse "no judge at $judge; name one with --judge"
 [[ -z "$plumb" || -x "$plumb" ]] || refuse "$plumb is no program; name a built plumb with --plumb"
+judge="$(realpath "$judge")"  # everything runs in folders of its own
+[[ -z "$plumb" ]] || plumb="$(realpath "$plumb")"
 python=python3
 python3 -c 'import numpy, scipy' 2>/dev/null || python=/usr/bin/python3
 
