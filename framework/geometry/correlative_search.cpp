@@ -78,13 +78,8 @@ class Search {
 
   /// What the window's trust takes from the sum of a single pose.
   int lost(const Branch& b) const {
-    const Trust& trust = window_.trust;
-    if (trust.share == 0) return 0;
-    const PlanarPose p = pose(b);
-    const double x = (p.x - trust.pose.x) / trust.distance, y = (p.y - trust.pose.y) / trust.distance;
-    const double yaw = wrapped(p.yaw - trust.pose.yaw) / trust.yaw;
-    const double square = x * x + y * y + yaw * yaw;
-    return static_cast<int>(trust.share * square / (1 + square) * 255 * static_cast<double>(count_));
+    if (window_.trust.share == 0) return 0;
+    return static_cast<int>(window_.trust.lost(pose(b)) * 255 * static_cast<double>(count_));
   }
 
   PlanarPose pose(const Branch& b) const {
@@ -132,10 +127,12 @@ double score_of(const LikelihoodField& field, const std::vector<float>& x,
 }
 
 PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
-                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step) {
-  const double middle = score_of(field, x, y, peak);
+                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step,
+                         const Trust& trust) {
+  const auto score = [&](const PlanarPose& pose) { return score_of(field, x, y, pose) - trust.lost(pose); };
+  const double middle = score(peak);
   const auto top = [&](const PlanarPose& before, const PlanarPose& after) {
-    const double low = score_of(field, x, y, before), high = score_of(field, x, y, after);
+    const double low = score(before), high = score(after);
     const double bend = low - 2 * middle + high;
     return bend < -1e-9 ? std::clamp(0.5 * (low - high) / bend, -0.5, 0.5) : 0.0;
   };

@@ -16,6 +16,14 @@ namespace plumb {
 struct Trust {
   PlanarPose pose;
   double share = 0, distance = 0.05, yaw = 0.05;
+
+  /// What it takes from the score of `other`.
+  double lost(const PlanarPose& other) const {
+    const double dx = (other.x - pose.x) / distance, dy = (other.y - pose.y) / distance;
+    const double turn = wrapped(other.yaw - pose.yaw) / yaw;
+    const double square = dx * dx + dy * dy + turn * turn;
+    return share * square / (1 + square);
+  }
 };
 
 /// Where to look: `centre` +- the half widths [m], [rad].
@@ -49,9 +57,10 @@ double score_of(const LikelihoodField& field, const std::vector<float>& x,
                 const std::vector<float>& y, const PlanarPose& pose);
 
 /// `peak` moved by less than half a cell, to the tops of the parabolas through the scores of its
-/// neighbours in x, y and yaw.
+/// neighbours in x, y and yaw, less what `trust` takes.
 PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
-                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step);
+                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step,
+                         const Trust& trust = {});
 
 /// The step of yaw [rad] that moves nine of ten of the points by at most a cell.
 double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, double resolution);

@@ -50,7 +50,7 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   result.yaw_step = std::min(yaw_step_for(laid.x, laid.y, options.fine_resolution), step);
   const double room = 1.2 * options.resolution;
   const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, trust}, result.yaw_step, 0);
-  result.T = best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step) : peak->pose;
+  result.T = best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, trust) : peak->pose;
   return result;
 }
 
