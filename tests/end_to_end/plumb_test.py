@@ -22,6 +22,8 @@ SHARED = SOURCE.parent / "shared"
 PIPELINES = SOURCE / "pipelines"
 CASCADE = PIPELINES / "tang2024.yaml"
 CAR = PIPELINES / "presets/car_64line.yaml"
+PLANAR = PIPELINES / "zhang2023.yaml"
+UNIMPROVED = PIPELINES / "presets/zhang2023_unimproved.yaml"
 
 DONE, WRONG_INPUT, WRONG_COMMAND_LINE, STEP_FAILED = 0, 1, 2, 3  # as `plumb --help` says
 
@@ -83,6 +85,13 @@ def real_sequence(name):
     if not folder.is_dir():
         skip("real sequences are not on this machine (../shared/data)")
     return folder
+
+
+def real_file(name):
+    file = SHARED / "data" / name
+    if not file.is_file():
+        skip("real sequences are not on this machine (../shared/data)")
+    return file
 
 
 def skip(reason):

@@ -5,7 +5,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from judge import Trajectory, frames_of, points_of
-from plumb_test import CAR, CASCADE, PIPELINES, STEP_FAILED, cascade, plumb, refused, score, sequence
+from plumb_test import CAR, CASCADE, PIPELINES, PLANAR, STEP_FAILED, UNIMPROVED, cascade, plumb, refused, score, sequence
 
 HANDHELD = PIPELINES / "presets/handheld_solid_state.yaml"
 MULRAN = PIPELINES / "presets/mulran_os1_64.yaml"
@@ -14,7 +14,7 @@ FILES = ["graph.g2o", "map.ply", "metrics.json", "run.lock.yaml", "trajectory.tu
 
 def test_all_are_known_to_these_cases(folder):
     """A new pipeline needs a case here."""
-    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN])
+    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN, PLANAR, UNIMPROVED])  # the last two: planar.py
 
 
 def test_all_check_clean(folder):
@@ -23,6 +23,8 @@ def test_all_check_clean(folder):
         plumb("check", CASCADE, *options, "--set", "input=.").has("good")
     for preset in (CAR, HANDHELD, MULRAN):
         plumb("check", preset, "--set", "input=.").has("good")
+    plumb("check", PLANAR, "--set", "input=.").has("good")
+    plumb("check", UNIMPROVED, "--set", "input=.").has("good")
 
 
 def straightens(sequence_folder, out, factor):
