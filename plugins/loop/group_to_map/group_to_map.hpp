@@ -27,7 +27,7 @@ struct LoopOptions {
   double least_score = 0.55;      ///< of the peak
   double second_peak = 0.95;      ///< another peak this high, as a share of the first, makes it ambiguous
   double apart = 0.6;             ///< [m] and 0.25 rad: so far another peak lies at least
-  std::uint32_t support = 1;      ///< loops nearby that must say the same
+  std::uint32_t support = 2;      ///< loops nearby that must say the same
   double agree = 0.3;             ///< [m] (and a third of it in rad): what 'the same' means, and 2 % of the way between
 };
 
