@@ -37,12 +37,11 @@ void Bookkeeping::add_item(const std::string& path, bool remembered) {
   ++(remembered ? time.remembered : time.items);
 }
 
-std::vector<std::string> Bookkeeping::counts() const {
+std::vector<StepCount> Bookkeeping::counts() const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> lines;
-  for (const auto& [key, n] : counts_)
-    lines.push_back(key.first + ": " + std::to_string(n) + " " + key.second);
-  return lines;
+  std::vector<StepCount> counts;
+  for (const auto& [key, n] : counts_) counts.push_back({key.first, key.second, n});
+  return counts;
 }
 
 std::vector<std::string> Bookkeeping::warnings() const {

@@ -18,6 +18,14 @@ struct StepTime {
   double cpu_seconds = 0;                 ///< of its own, without the steps that it called for
 };
 
+/// What a step counted, over all its items and passes.
+struct StepCount {
+  std::string path, what;  ///< "points without a normal"
+  std::uint64_t n = 0;
+
+  std::string text() const { return path + ": " + std::to_string(n) + " " + what; }
+};
+
 /// Safe from several threads.
 class Bookkeeping {
  public:
@@ -29,7 +37,7 @@ class Bookkeeping {
   void add_time(const std::string& path, double seconds);
   void add_item(const std::string& path, bool remembered);
 
-  std::vector<std::string> counts() const;  ///< "sequence: 12 points without ..."
+  std::vector<StepCount> counts() const;
   std::vector<std::string> warnings() const;
   std::vector<StepTime> times() const;      ///< in the order in which steps first ran
 

@@ -38,7 +38,8 @@ struct RunResult {
   std::vector<MadeDocument> documents;
   std::vector<MadeMetrics> metrics;    ///< every Metrics output; of a repeat its last pass
   std::vector<LoopEnd> loops;
-  std::vector<std::string> warnings, counts;
+  std::vector<std::string> warnings;
+  std::vector<StepCount> counts;
   std::vector<StepTime> times;
   double seconds = 0;                  ///< wall clock
   std::size_t peak_bytes = 0;          ///< of resident memory, whole process

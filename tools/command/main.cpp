@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   plumb::command::add_schema(app);
   plumb::command::add_simulate(app);
   plumb::command::add_evaluate(app);
+  plumb::command::add_compare(app);
   try {
     app.parse(argc, argv);
     return 0;

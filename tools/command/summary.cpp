@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plumb/report/stages.hpp"
 #include "plumb/report/weakness.hpp"
 
 namespace plumb::command {
@@ -13,15 +14,6 @@ std::string rounded(double value) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(std::abs(value) >= 100 ? 1 : 3) << value;
   return text.str();
-}
-
-/// The labels of the inputs of which a step takes several: the stages that it measures.
-std::vector<std::string> stages_of(const PlannedStep& step) {
-  std::vector<std::string> stages;
-  for (std::size_t p = 0; p < step.inputs.size(); ++p)
-    if (step.description->inputs[p].access == Access::several)
-      for (const Wire& wire : step.inputs[p]) stages.push_back(wire.label);
-  return stages;
 }
 
 /// Numbers called "STAGE" or "STAGE.NAME" of all measures as one table: a row a stage, a column a measure.
@@ -38,7 +30,7 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
     if (stages.size() < 2) continue;  // a loop's own measure
     for (const std::string& stage : stages)
       for (const Number& number : made.metrics->numbers) {
-        if (number.name != stage && !number.name.starts_with(stage + ".")) continue;
+        if (!is_of_stage(number.name, stage)) continue;
         std::string column = made.path + number.name.substr(stage.size());
         if (!number.unit.empty()) column += " [" + number.unit + "]";
         note(rows, stage);
@@ -81,7 +73,7 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   out << "\n";
   for (const LoopEnd& loop : result.loops)
     out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
-  for (const std::string& count : result.counts) out << "counted: " << count << "\n";
+  for (const StepCount& count : result.counts) out << "counted: " << count.text() << "\n";
   print_weak(out, result, true);
   if (times) print_times(out, result);
   out << plan.name << ": " << std::fixed << std::setprecision(1) << result.seconds << " s, " << std::setprecision(2)

@@ -6,7 +6,7 @@ import re
 from plumb_test import (BUILD, CAR, CASCADE, PLUMB, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence,
                         step_names)
 
-COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate"]
+COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate", "compare"]
 INPUT = ["--set", "input=."]  # checking reads no data, but what it names must be there
 
 

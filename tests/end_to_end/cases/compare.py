@@ -1,0 +1,112 @@
+"""`plumb compare` runs a pipeline and variants of it on the same inputs and says what differs."""
+import json
+
+from plumb_test import (PIPELINES, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused)
+
+SMALL = """plumb: 1
+name: chained
+parameters:
+  input: {type: path}
+  truth: {type: path, default: none}
+steps:
+  log:      {use: source.carmen,        with: {path: $input}}
+  each:     {use: segment.by_distance,  from: log.trajectory, with: {length: 0.5 m, turn: 15 deg}}
+  raw:      {use: segment.merge,        from: {frames: log.frames, ranges: each.ranges}}
+  scans:    {use: filter.voxel_grid,    from: raw, with: {leaf: 0.05 m}}
+  lined:    {use: estimate.normals,     from: scans, with: {planar: true, radius: 0.25 m, neighbours: none}}
+  next:     {use: edges.sequential,     from: each.ranges}
+  matched:
+    use: register.ia_icp
+    from: {edges: next, targets: lined, sources: scans, poses: each.poses}
+    with: {metric: line, hold: 0.1 m, reach: 0.3 m}
+  chained:  {use: apply.chain,          from: {poses: each.poses, registrations: matched}}
+  straight: {use: apply.correction,     from: {trajectory: log.trajectory, ranges: each.ranges, poses: chained.poses}}
+  error:
+    use: measure.trajectory
+    from: {trajectories: {before: log.trajectory, fine: straight}}
+    with: {truth: $truth}
+  trajectory: {use: write.trajectory,   from: straight}
+"""
+
+# Nothing is near enough to be laid onto: the odometry stays.
+LOOSE = """plumb: 1
+name: loose
+extends: chained.yaml
+set: {matched.reach: 0.001 m}
+"""
+
+
+def files(folder, seeds=(1, 2)):
+    """The pipeline, the preset and small rooms; what the command needs of them."""
+    (folder / "chained.yaml").write_text(SMALL)
+    (folder / "loose.yaml").write_text(LOOSE)
+    rooms = [folder / f"rooms_{seed}" for seed in seeds]
+    for seed, room in zip(seeds, rooms):
+        plumb("simulate", "rooms", "--seed", seed, "-o", room)
+    return ["compare", folder / "chained.yaml", "--variant", f"loose={folder}/loose.yaml"], rooms
+
+
+def test_means_are_those_of_the_runs_that_it_keeps(folder):
+    command, rooms = files(folder)
+    inputs = [word for room in rooms for word in ("--input", room)]
+    said = json.loads(plumb(*command, *inputs, "-o", folder / "out", "--json", "--quiet").out)
+    assert said["variants"] == ["chained", "loose"] and said["inputs"] == ["rooms_1", "rooms_2"]
+    numbers = {number["name"]: number for number in said["numbers"]}
+    assert {"error.fine.ate", "matching time", "matching iterations", "time"} <= set(numbers) and "error.before.ate" not in numbers
+    ate = numbers["error.fine.ate"]["variants"]
+    for name, of in ate.items():
+        for room, value in zip(rooms, of["values"]):
+            kept = folder / "out" / name / room.name
+            judged = json.loads(plumb("evaluate", room, kept / "trajectory.tum", "--json").out)["after"]["ate_rmse"]
+            assert abs(value - judged) < 1e-5, (name, room, value, judged)
+        assert abs(of["mean"] - sum(of["values"]) / 2) < 1e-12
+    assert abs(ate["loose"]["less_by"] - 100 * (1 - ate["chained"]["mean"] / ate["loose"]["mean"])) < 1e-9
+    low, high = ate["loose"]["less_by_interval"]
+    assert low <= ate["loose"]["less_by"] <= high
+
+
+def test_table_has_a_row_a_number_and_a_line_a_run(folder):
+    command, rooms = files(folder, seeds=[1])
+    said = plumb(*command, "--input", rooms[0] / "log.clf", "--set", f"truth={rooms[0]}/truth.tum", "--metric", "error.*.ate",
+                 "--time", "filter.")
+    said.has("chained on log.clf:", "loose on log.clf:", "error.before.ate [m]", "error.fine.ate [m]", "filter.* time [CPU s]",
+             "less by", "Means over 1 input.")
+    assert "error.fine.ate_max" not in said.out
+    before = next(line for line in said.out.splitlines() if line.startswith("error.before.ate"))
+    assert before.endswith("0.0 %"), before  # nothing that came before the variants differ
+
+
+def test_refuses_in_one_sentence_before_anything_runs(folder):
+    command, rooms = files(folder, seeds=[1])
+    given = ["--input", rooms[0]]
+    refused(plumb(*command, "--input", folder / "nowhere", code=WRONG_INPUT), "nowhere", "no such file or folder", "give")
+    refused(plumb(*command, "--variant", f"loose={folder}/loose.yaml", *given, code=WRONG_INPUT), "a 'loose' already")
+    refused(plumb(*command, *given, "--time", "regster.", code=WRONG_INPUT), "--time regster.", "no step")
+    plumb(*command[:2], "--variant", f"x={folder}/none.yaml", *given, code=WRONG_INPUT).has("none.yaml")
+    plumb(*command, *given, "--set", "nothing=1", code=WRONG_INPUT).has("nothing")
+    (folder / "out/loose/rooms_1").mkdir(parents=True)
+    (folder / "out/loose/rooms_1/thesis.tex").write_text("mine")
+    refused(plumb(*command, *given, "-o", folder / "out", code=WRONG_INPUT), "thesis.tex", "give another folder")
+    assert files_of(folder / "out") == {"loose/rooms_1/thesis.tex": b"mine"}
+
+
+def test_a_wrong_command_line_exits_with_2(folder):
+    command, rooms = files(folder, seeds=[1])
+    for arguments in (command, [*command[:2], "--input", rooms[0]], [*command[:2], "--variant", "loose", "--input", rooms[0]],
+                      [*command[:2], "--variant", f"../up={folder}/loose.yaml", "--input", rooms[0]]):
+        said = plumb(*arguments, code=WRONG_COMMAND_LINE)
+        assert said.err.strip() and not said.out, said
+
+
+def test_says_which_variant_failed_on_which_input(folder):
+    command, rooms = files(folder, seeds=[1])
+    (folder / "loose.yaml").write_text(LOOSE.replace("set: {matched.reach: 0.001 m}", "set: {matched.reach: 0.3 m}\n"
+                                                     "replace:\n  lined: {use: filter.voxel_grid, from: scans, with: {leaf: 0.06 m}}"))
+    said = plumb(*command, "--input", rooms[0], "--quiet", code=STEP_FAILED)
+    said.has("variant 'loose' on", "rooms_1", "step 'matched'", "needs normals")
+    refused(plumb(*command, "--input", rooms[0], "--metric", "error.fine.atr", "--quiet", code=STEP_FAILED), "variant 'chained'",
+            "error.fine.ate'")
+
+
+def test_the_paper_s_pipeline_takes_its_unimproved_variant(folder):
+    plumb("check", PIPELINES / "zhang2023.yaml", "--preset", PIPELINES / "presets/zhang2023_unimproved.yaml", "--set", "input=.").has("good")
