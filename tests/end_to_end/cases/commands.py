@@ -18,7 +18,8 @@ def test_help_names_every_command_and_the_exit_codes(folder):
 def test_each_command_has_help_with_its_options(folder):
     expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
                 "graph": ["mermaid", "dot"], "inspect": ["--json"], "schema": ["--output"],
-                "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"]}
+                "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
+                "compare": ["--variant", "--input", "--metric", "--time", "--json"]}
     for command in COMMANDS:
         plumb(command, "--help").has("Usage: plumb " + command, *expected.get(command, []))
 
@@ -70,10 +71,18 @@ def test_graph_draws_every_step_in_both_formats(folder):
     assert dot.count("{") == dot.count("}")
 
 
+def installed():
+    """The names of the steps in each module of the build, from its manifest."""
+    folder = BUILD / "lib/plumb"
+    modules = {f.stem: [step["name"] for step in json.loads(f.read_text())["steps"]] for f in folder.glob("*.json")}
+    assert sorted(modules) == sorted(f.name[:-3] for f in folder.glob("*.so"))
+    return modules
+
+
 def test_list_and_inspect_show_every_installed_step(folder):
-    names = step_names()
-    modules = sorted(f.name[:-3] for f in (BUILD / "lib/plumb").glob("*.so"))
-    assert sorted(names) == modules
+    names, modules = step_names(), installed()
+    assert sorted(names) == sorted(name for steps in modules.values() for name in steps)
+    assert all(module in steps for module, steps in modules.items()), modules  # a module is named after its step, or its first
     for name in names:
         text = plumb("inspect", name).out
         declared = json.loads(plumb("inspect", name, "--json").out)
@@ -91,8 +100,8 @@ def test_inspect_of_an_unknown_step_offers_the_nearest(folder):
 
 def test_doctor_finds_all_modules_and_every_one_loads(folder):
     said = plumb("doctor")
-    count = len(step_names())
-    said.has(f"{count} steps in {count} modules; {count} load", "ABI: plumb-sdk", str((BUILD / "lib/plumb").resolve()))
+    modules = len(installed())
+    said.has(f"{len(step_names())} steps in {modules} modules; {modules} load", "ABI: plumb-sdk", str((BUILD / "lib/plumb").resolve()))
     assert "refused" not in said.out
 
 

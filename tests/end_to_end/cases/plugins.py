@@ -85,7 +85,7 @@ def installation(folder):
 
 def test_a_pipeline_that_names_a_missing_module_is_refused(folder):
     program, modules, environment = installation(folder)
-    plumb("check", CASCADE, "--set", "input=x", program=program, environment=environment).has("good")
+    plumb("check", CASCADE, "--set", "input=.", program=program, environment=environment).has("good")
     (modules / "prune.kmeans.so").unlink()
     refuses_the_cascade(folder, "prune.kmeans", program=program, environment=environment)
     plumb("doctor", program=program, environment=environment)  # what is not there is no fault

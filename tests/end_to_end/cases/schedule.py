@@ -32,7 +32,7 @@ def overlay(folder, text):
 
 
 def test_a_row_is_changed_by_set(folder):
-    said = plumb("check", CASCADE, "--set", "input=x", "--set", "coarse.gate=3 m,2.5 m,2 m,1.5 m")
+    said = plumb("check", CASCADE, "--set", "input=.", "--set", "coarse.gate=3 m,2.5 m,2 m,1.5 m")
     said.has("3 m", "2.5 m", "2 m", "1.5 m")
     said = run(folder, "--set", "coarse.gate=3 m,2.5 m,2 m,1.5 m", "--set", "fine.reach=1 m,0.5 m")
     assert 3 <= passes(said, "coarse") <= 4 and passes(said, "fine") >= 5
