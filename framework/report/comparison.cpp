@@ -16,15 +16,19 @@ namespace plumb {
 namespace {
 
 const PlannedStep& step_at(const Plan& plan, const std::string& path) {
-  return *std::find_if(plan.steps.begin(), plan.steps.end(), [&](const PlannedStep& s) { return s.path == path; });
+  return *std::find_if(plan.steps.begin(), plan.steps.end(),
+                       [&](const PlannedStep& s) { return s.path == path; });
 }
 
-bool is_chosen(const PlannedStep& step, const std::string& number, const std::vector<std::string>& globs) {
+bool is_chosen(const PlannedStep& step, const std::string& number,
+               const std::vector<std::string>& globs) {
   const std::string name = step.path + "." + number;
   if (!globs.empty())
-    return std::any_of(globs.begin(), globs.end(),
-                       [&](const std::string& glob) { return fnmatch(glob.c_str(), name.c_str(), 0) == 0; });
-  if (step.path != "error" && step.path != "map_error" && step.path != "relation_error") return false;
+    return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) {
+      return fnmatch(glob.c_str(), name.c_str(), 0) == 0;
+    });
+  if (step.path != "error" && step.path != "map_error" && step.path != "relation_error")
+    return false;
   const auto stages = stages_of(step);
   return stages.empty() || is_of_stage(number, stages.back());
 }
@@ -38,12 +42,14 @@ void require_a_match(const std::string& glob, const RunResult& result) {
     }
   std::string near = pipeline::nearest(glob, names);
   if (near.empty() && !names.empty()) near = names.front();
-  throw Error("no number is called '" + glob + "'" + (near.empty() ? ": no step gave any" : "; there is, say, '" + near + "'"));
+  throw Error("no number is called '" + glob + "'" +
+              (near.empty() ? ": no step gave any" : "; there is, say, '" + near + "'"));
 }
 
 }  // namespace
 
-std::vector<Number> figures_of(const Plan& plan, const RunResult& result, const ComparedFigures& chosen) {
+std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
+                               const ComparedFigures& chosen) {
   for (const std::string& glob : chosen.metrics) require_a_match(glob, result);
   std::vector<Number> figures;
   for (const MadeMetrics& made : result.metrics) {
@@ -55,7 +61,8 @@ std::vector<Number> figures_of(const Plan& plan, const RunResult& result, const 
   const auto is_timed = [&](const std::string& path) {
     return step_at(plan, path).description->name.starts_with(chosen.timed);
   };
-  const std::string what = chosen.timed == ComparedFigures{}.timed ? "matching" : chosen.timed + "*";
+  const std::string what =
+      chosen.timed == ComparedFigures{}.timed ? "matching" : chosen.timed + "*";
   double seconds = 0, iterations = 0;
   bool any_timed = false, any_iterations = false;
   for (const StepTime& time : result.times)
@@ -86,14 +93,16 @@ Less ComparedNumber::less_than(std::size_t variant) const {
     const double off = values[variant][k] - values[0][k] - difference;
     squares += off * off;
   }
-  less.interval = 100 * student_t(inputs.size() - 1) * std::sqrt(squares / (n - 1) / n) / std::abs(other);
+  less.interval =
+      100 * student_t(inputs.size() - 1) * std::sqrt(squares / (n - 1) / n) / std::abs(other);
   return less;
 }
 
 Comparison compare(std::vector<std::string> variants, std::vector<std::string> inputs,
                    const std::vector<std::vector<std::vector<Number>>>& figures) {
   std::vector<Number> rows;
-  std::map<std::string, std::vector<std::vector<std::optional<double>>>> cells;  // by name, then variant, then input
+  std::map<std::string, std::vector<std::vector<std::optional<double>>>>
+      cells;  // by name, then variant, then input
   for (std::size_t v = 0; v < variants.size(); ++v)
     for (std::size_t k = 0; k < inputs.size(); ++k)
       for (const Number& number : figures[v][k]) {
@@ -107,9 +116,12 @@ Comparison compare(std::vector<std::string> variants, std::vector<std::string> i
   Comparison comparison{std::move(variants), std::move(inputs), {}};
   for (const Number& row : rows) {
     const auto& cell = cells[row.name];
-    ComparedNumber number{row.name, row.unit, {}, std::vector<std::vector<double>>(comparison.variants.size())};
+    ComparedNumber number{
+        row.name, row.unit, {}, std::vector<std::vector<double>>(comparison.variants.size())};
     for (std::size_t k = 0; k < comparison.inputs.size(); ++k) {
-      if (!std::all_of(cell.begin(), cell.end(), [&](const auto& of_variant) { return of_variant[k].has_value(); })) continue;
+      if (!std::all_of(cell.begin(), cell.end(),
+                       [&](const auto& of_variant) { return of_variant[k].has_value(); }))
+        continue;
       number.inputs.push_back(k);
       for (std::size_t v = 0; v < cell.size(); ++v) number.values[v].push_back(*cell[v][k]);
     }
@@ -119,12 +131,14 @@ Comparison compare(std::vector<std::string> variants, std::vector<std::string> i
 }
 
 double student_t(std::size_t freedom) {
-  static constexpr double few[] = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281};
+  static constexpr double few[] = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
+                                   2.4469,  2.3646, 2.3060, 2.2622, 2.2281};
   if (freedom <= std::size(few)) return few[freedom - 1];
   // Fisher's expansion in 1/freedom (Abramowitz and Stegun 26.7.5).
   const double z = 1.959964, v = static_cast<double>(freedom);
-  const double z3 = z * z * z, z5 = z3 * z * z;
-  return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v * v);
+  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+  return z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v * v) +
+         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v * v * v);
 }
 
 }  // namespace plumb

@@ -10,26 +10,31 @@
 namespace plumb {
 
 struct ComparedFigures {
-  /// Globs (fnmatch) over "STEP.NUMBER", as in "error.*.ate". None: all numbers of steps called error, map_error and
-  /// relation_error; where these measure several stages, of the last one.
+  /// Globs (fnmatch) over "STEP.NUMBER", as in "error.*.ate". None: all numbers of steps called
+  /// error, map_error and relation_error; where these measure several stages, of the last one.
   std::vector<std::string> metrics;
-  std::string timed = "register.";  ///< steps of which these are the first letters are what is timed and whose iterations count
+  std::string timed = "register.";  ///< steps of which these are the first letters are what is
+                                    ///< timed and whose iterations count
 };
 
-/// The numbers of one run that are compared, named "STEP.NUMBER": those chosen; then CPU time and iterations (where counted) of
-/// the timed steps; last `time`, wall clock of the whole run. Numbers that are not finite are left out. Throws Error: a glob that no number matches.
-std::vector<Number> figures_of(const Plan& plan, const RunResult& result, const ComparedFigures& chosen);
+/// The numbers of one run that are compared, named "STEP.NUMBER": those chosen; then CPU time and
+/// iterations (where counted) of the timed steps; last `time`, wall clock of the whole run. Numbers
+/// that are not finite are left out. Throws Error: a glob that no number matches.
+std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
+                               const ComparedFigures& chosen);
 
-/// How much less the first variant has than another: 100 (1 - mean of the first / mean of the other) [%].
+/// How much less the first variant has than another: 100 (1 - mean of the first / mean of the
+/// other) [%].
 struct Less {
   double percent = 0;              ///< NaN where the other's mean is 0
-  std::optional<double> interval;  ///< half the 95 % confidence interval of `percent`: Student's t over the inputs' differences
+  std::optional<double> interval;  ///< half the 95 % confidence interval of `percent`: Student's t
+                                   ///< over the inputs' differences
 };
 
 /// One number over all runs.
 struct ComparedNumber {
   std::string name, unit;
-  std::vector<std::size_t> inputs;          ///< those where every variant gives the number, ascending
+  std::vector<std::size_t> inputs;  ///< those where every variant gives the number, ascending
   std::vector<std::vector<double>> values;  ///< by variant, then as `inputs`
 
   double mean(std::size_t variant) const;
@@ -37,8 +42,9 @@ struct ComparedNumber {
 };
 
 struct Comparison {
-  std::vector<std::string> variants, inputs;  ///< names; the first variant is what the others are held against
-  std::vector<ComparedNumber> numbers;        ///< those that every variant gives on at least one input
+  std::vector<std::string> variants,
+      inputs;  ///< names; the first variant is what the others are held against
+  std::vector<ComparedNumber> numbers;  ///< those that every variant gives on at least one input
 };
 
 /// `figures`: by variant, then input. Rows keep the order of the first run that has them.

@@ -18,7 +18,8 @@ using testing::Not;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A run of a pipeline with a matcher, a step `error` that measures two stages, and a step `map_error`.
+/// A run of a pipeline with a matcher, a step `error` that measures two stages, and a step
+/// `map_error`.
 struct SmallRun {
   StepDescription matcher, measure, map_measure;
   Plan plan;
@@ -26,7 +27,7 @@ struct SmallRun {
 
   SmallRun() {
     matcher.name = "register.any", measure.name = "measure.any", map_measure.name = "measure.map";
-    PortDescription port;
+    InputDescription port;
     port.access = Access::several;
     measure.inputs.push_back(port);
     PlannedStep matched, error, map_error;
@@ -45,7 +46,9 @@ struct SmallRun {
                       {"error", std::make_shared<const Metrics>(errors)},
                       {"map_error", std::make_shared<const Metrics>(of_map)}};
     result.times = {{"fine.matched", 3, 0, 1.5}, {"error", 1, 0, 0.25}};
-    result.counts = {{"fine.matched", "iterations", 12}, {"fine.matched", "registrations not accepted", 1}, {"error", "iterations", 7}};
+    result.counts = {{"fine.matched", "iterations", 12},
+                     {"fine.matched", "registrations not accepted", 1},
+                     {"error", "iterations", 7}};
     result.seconds = 4;
   }
 
@@ -61,14 +64,15 @@ struct SmallRun {
 };
 
 TEST(Comparison, TakesTheErrorsOfTheLastStageAndTheTimeOfMatching) {
-  EXPECT_THAT(SmallRun().texts(), ElementsAre("error.fine.ate 0.1 m", "map_error.mean 0.03 m", "matching time 1.5 CPU s",
-                                              "matching iterations 12 ", "time 4 s"));
+  EXPECT_THAT(SmallRun().texts(),
+              ElementsAre("error.fine.ate 0.1 m", "map_error.mean 0.03 m",
+                          "matching time 1.5 CPU s", "matching iterations 12 ", "time 4 s"));
 }
 
 TEST(Comparison, TakesWhatIsAskedForOfAnyStepAndStage) {
   EXPECT_THAT(SmallRun().texts({{"*.ate", "*.before.*", "fine.matched.rmse"}, "measure.a"}),
-              ElementsAre("fine.matched.rmse 0.2 m", "error.before.ate 2 m", "error.fine.ate 0.1 m", "measure.a* time 0.25 CPU s",
-                          "measure.a* iterations 7 ", "time 4 s"));
+              ElementsAre("fine.matched.rmse 0.2 m", "error.before.ate 2 m", "error.fine.ate 0.1 m",
+                          "measure.a* time 0.25 CPU s", "measure.a* iterations 7 ", "time 4 s"));
 }
 
 TEST(Comparison, OfANumberThatNoStepGivesIsRefusedWithOneThatThereIs) {
@@ -83,14 +87,18 @@ TEST(Comparison, OfANumberThatNoStepGivesIsRefusedWithOneThatThereIs) {
 std::vector<Number> ate(double value) { return {{"ate", value, "m"}}; }
 
 TEST(Comparison, SaysHowMuchLessAndHowSureThatIs) {
-  // Differences 0.4, 0.5, 0.9: mean 0.6, standard error sqrt(0.07 / 3), t of 2 degrees of freedom 4.3027.
-  const auto made = compare({"ours", "theirs"}, {"a", "b", "c"}, {{ate(0.6), ate(0.5), ate(0.1)}, {ate(1), ate(1), ate(1)}});
+  // Differences 0.4, 0.5, 0.9: mean 0.6, standard error sqrt(0.07 / 3), t of 2 degrees of
+  // freedom 4.3027.
+  const auto made = compare({"ours", "theirs"}, {"a", "b", "c"},
+                            {{ate(0.6), ate(0.5), ate(0.1)}, {ate(1), ate(1), ate(1)}});
   ASSERT_EQ(made.numbers.size(), 1u);
   const auto less = made.numbers[0].less_than(1);
   EXPECT_NEAR(less.percent, 60, 1e-9);
   ASSERT_TRUE(less.interval);
   EXPECT_NEAR(*less.interval, 100 * 4.3027 * std::sqrt(0.07 / 3), 1e-9);
-  EXPECT_THAT(comparison_table(made), AllOf(HasSubstr("60.0 % +- 65.7"), HasSubstr("Means over 3 inputs"), HasSubstr("ate [m]")));
+  EXPECT_THAT(
+      comparison_table(made),
+      AllOf(HasSubstr("60.0 % +- 65.7"), HasSubstr("Means over 3 inputs"), HasSubstr("ate [m]")));
 }
 
 TEST(Comparison, OfOneInputHasNoInterval) {
@@ -115,17 +123,22 @@ TEST(Comparison, KeepsOnlyWhatAllVariantsGiveAndSaysOnHowManyInputs) {
 
 TEST(Comparison, WithNothingIsADashAndNull) {
   const auto made = compare({"ours", "theirs", "none"}, {"a"}, {{ate(1)}, {ate(4)}, {ate(0)}});
-  EXPECT_THAT(comparison_table(made), AllOf(HasSubstr("less than theirs  less than none"), HasSubstr("75.0 %               -\n")));
+  EXPECT_THAT(comparison_table(made), AllOf(HasSubstr("less than theirs  less than none"),
+                                            HasSubstr("75.0 %               -\n")));
   const auto json = nlohmann::json::parse(comparison_json(made));
   EXPECT_TRUE(json["numbers"][0]["variants"]["none"]["less_by"].is_null());
   EXPECT_NEAR(json["numbers"][0]["variants"]["theirs"]["less_by"].get<double>(), 75, 1e-9);
-  EXPECT_THAT(json["numbers"][0]["variants"]["ours"]["values"].get<std::vector<double>>(), ElementsAre(1));
+  EXPECT_THAT(json["numbers"][0]["variants"]["ours"]["values"].get<std::vector<double>>(),
+              ElementsAre(1));
 }
 
 /// The probability that |t| is below `bound`, by Simpson's rule.
 double within(double bound, double freedom) {
-  const double scale = std::exp(std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2)) / std::sqrt(freedom * std::numbers::pi);
-  const auto density = [&](double t) { return scale * std::pow(1 + t * t / freedom, -(freedom + 1) / 2); };
+  const double scale = std::exp(std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2)) /
+                       std::sqrt(freedom * std::numbers::pi);
+  const auto density = [&](double t) {
+    return scale * std::pow(1 + t * t / freedom, -(freedom + 1) / 2);
+  };
   constexpr int steps = 4000;
   double sum = density(0) + density(bound);
   for (int k = 1; k < steps; ++k) sum += (k % 2 ? 4 : 2) * density(bound * k / steps);

@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// The labels of the inputs of which a step takes several, as written: the stages that it measures. A measure's numbers are
-/// called "STAGE" or "STAGE.NAME".
+/// The labels of the inputs of which a step takes several, as written: the stages that it measures.
+/// A measure's numbers are called "STAGE" or "STAGE.NAME".
 std::vector<std::string> stages_of(const PlannedStep& step);
 
 /// Whether a number is of that stage.

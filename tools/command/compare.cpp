@@ -40,9 +40,11 @@ std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
   for (const std::string& option : options.variants) {
     const auto equals = option.find('=');
     const std::string name = option.substr(0, equals);
-    if (std::any_of(variants.begin(), variants.end(), [&](const Variant& v) { return v.name == name; }))
+    if (std::any_of(variants.begin(), variants.end(),
+                    [&](const Variant& v) { return v.name == name; }))
       throw Error("--variant " + option + ": there is a '" + name + "' already" +
-                  (name == pipeline.name ? ", the pipeline as it is" : "") + "; give each variant a name of its own");
+                  (name == pipeline.name ? ", the pipeline as it is" : "") +
+                  "; give each variant a name of its own");
     variants.push_back({name, {option.substr(equals + 1)}});
   }
   return variants;
@@ -56,26 +58,33 @@ std::vector<std::string> names_of(const std::vector<fs::path>& inputs) {
     fs::path path = fs::absolute(input).lexically_normal();
     if (path.filename().empty()) path = path.parent_path();
     std::string name = path.filename().string();
-    for (int k = 2; !used.insert(name).second; ++k) name = path.filename().string() + "_" + std::to_string(k);
+    for (int k = 2; !used.insert(name).second; ++k)
+      name = path.filename().string() + "_" + std::to_string(k);
     names.push_back(name);
   }
   return names;
 }
 
-/// What an input sets: itself, or the log in it, and the truth and the plan that lie beside where the pipeline asks for them.
+/// What an input sets: itself, or the log in it, and the truth and the plan that lie beside where
+/// the pipeline asks for them.
 std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline) {
   const auto declares = [&](const char* name) {
-    return std::any_of(pipeline.settings.begin(), pipeline.settings.end(), [&](const auto& s) { return s.name == name; });
+    return std::any_of(pipeline.settings.begin(), pipeline.settings.end(),
+                       [&](const auto& s) { return s.name == name; });
   };
   if (!declares("input"))
-    throw Error(pipeline.files.front() + ": has no parameter 'input' that --input could set; declare one under 'parameters'");
+    throw Error(
+        pipeline.files.front() +
+        ": has no parameter 'input' that --input could set; declare one under 'parameters'");
   if (!fs::exists(input))
-    throw Error("--input " + input.string() + ": there is no such file or folder; give a log, or the folder of a sequence");
+    throw Error("--input " + input.string() +
+                ": there is no such file or folder; give a log, or the folder of a sequence");
   if (!fs::is_directory(input)) return {"input=" + input.string()};
   const auto log = input / "log.clf";
   std::vector<std::string> sets{"input=" + (fs::exists(log) ? log : input).string()};
   for (const auto& [name, file] : {std::pair{"truth", "truth.tum"}, {"plan", "plan.txt"}})
-    if (declares(name) && fs::exists(input / file)) sets.push_back(name + ("=" + (input / file).string()));
+    if (declares(name) && fs::exists(input / file))
+      sets.push_back(name + ("=" + (input / file).string()));
   return sets;
 }
 
@@ -83,8 +92,9 @@ void require_timed(const std::string& prefix, const Plan& pipeline) {
   if (prefix == ComparedFigures{}.timed) return;
   for (const PlannedStep& step : pipeline.steps)
     if (step.description->name.starts_with(prefix)) return;
-  throw Error("--time " + prefix + ": no step of " + pipeline.files.front() +
-              " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
+  throw Error(
+      "--time " + prefix + ": no step of " + pipeline.files.front() +
+      " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
 void compare(const Options& options) {
@@ -102,13 +112,16 @@ void compare(const Options& options) {
     for (std::size_t k = 0; k < options.inputs.size(); ++k) {
       auto sets = sets_of(options.inputs[k], pipeline);
       sets.insert(sets.end(), options.sets.begin(), options.sets.end());
-      runs[v].push_back({read_pipeline(options.pipeline, {variants[v].presets, sets, false, true}, steps), nullptr});
+      runs[v].push_back(
+          {read_pipeline(options.pipeline, {variants[v].presets, sets, false, true}, steps),
+           nullptr});
     }
   }
   if (!options.output.empty())
     for (std::size_t v = 0; v < variants.size(); ++v)
       for (std::size_t k = 0; k < input_names.size(); ++k)
-        runs[v][k].folder = std::make_unique<OutputFolder>(options.output / variants[v].name / input_names[k]);
+        runs[v][k].folder =
+            std::make_unique<OutputFolder>(options.output / variants[v].name / input_names[k]);
 
   std::vector<std::vector<std::vector<Number>>> figures(variants.size());
   for (std::size_t k = 0; k < input_names.size(); ++k)
@@ -122,9 +135,11 @@ void compare(const Options& options) {
         if (run.folder) run.folder->fill(run.plan, result);
         figures[v].push_back(figures_of(run.plan, result, options.figures));
         if (!options.quiet)
-          std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(), input_names[k].c_str(), result.seconds);
+          std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
+                       input_names[k].c_str(), result.seconds);
       } catch (const Error& e) {
-        std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string() << ": " << e.what() << "\n";
+        std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
+                  << ": " << e.what() << "\n";
         throw CLI::RuntimeError(3);
       }
     }
@@ -136,41 +151,65 @@ void compare(const Options& options) {
 std::string fault_of_variant(const std::string& option) {
   const auto equals = option.find('=');
   const std::string name = option.substr(0, equals);
-  if (equals == std::string::npos || equals + 1 == option.size() || name.empty() || name.starts_with('.') ||
-      name.find('/') != std::string::npos)
-    return "expected NAME=PRESET, as in unimproved=presets/zhang2023_unimproved.yaml, not '" + option + "'";
+  if (equals == std::string::npos || equals + 1 == option.size() || name.empty() ||
+      name.starts_with('.') || name.find('/') != std::string::npos)
+    return "expected NAME=PRESET, as in unimproved=presets/zhang2023_unimproved.yaml, not '" +
+           option + "'";
   return "";
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app) {
-  auto* command = app.add_subcommand("compare", "Runs a pipeline and variants of it on the same inputs and compares their numbers");
+  auto* command = app.add_subcommand(
+      "compare",
+      "Runs a pipeline and variants of it on the same inputs and compares their numbers");
   auto options = std::make_shared<Options>();
   command->add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)")->required();
-  command->add_option("--variant", options->variants, "NAME=PRESET: the pipeline with that preset; may be given again")
-      ->required()->allow_extra_args(false)->check(fault_of_variant);
-  command->add_option("--input", options->inputs,
-                      "What the parameter 'input' is set to: a log, or a sequence's folder, of which log.clf, truth.tum and "
-                      "plan.txt are used where they are there; may be given again")
-      ->required()->allow_extra_args(false);
-  command->add_option("--set", options->sets, "A parameter, a row or a step's parameter, in all runs; may be given again")
+  command
+      ->add_option("--variant", options->variants,
+                   "NAME=PRESET: the pipeline with that preset; may be given again")
+      ->required()
+      ->allow_extra_args(false)
+      ->check(fault_of_variant);
+  command
+      ->add_option("--input", options->inputs,
+                   "What the parameter 'input' is set to: a log, or a sequence's folder, of which "
+                   "log.clf, truth.tum and "
+                   "plan.txt are used where they are there; may be given again")
+      ->required()
       ->allow_extra_args(false);
-  command->add_option("--metric", options->figures.metrics,
-                      "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: those of the steps error, "
-                      "map_error and relation_error, of the last stage that they measure")
+  command
+      ->add_option("--set", options->sets,
+                   "A parameter, a row or a step's parameter, in all runs; may be given again")
       ->allow_extra_args(false);
-  command->add_option("--time", options->figures.timed, "Steps whose time and iterations are compared: how their 'use' begins")
+  command
+      ->add_option("--metric", options->figures.metrics,
+                   "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "
+                   "those of the steps error, "
+                   "map_error and relation_error, of the last stage that they measure")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--time", options->figures.timed,
+                   "Steps whose time and iterations are compared: how their 'use' begins")
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Keeps each run's results in OUTPUT/VARIANT/INPUT");
-  command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "Keeps each run's results in OUTPUT/VARIANT/INPUT");
+  command
+      ->add_option("--threads", options->threads,
+                   "Threads to use; 0 for as many as the machine has")
+      ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(
-      "The columns are means over the inputs; 'less by' is how much less the pipeline has than the variant, with the 95 % confidence\n"
-      "of the inputs' differences. Times count CPU seconds of the steps, and wall clock seconds of the whole run.\n"
-      "Exit 1 when anything is refused before the first run, 3 when a run fails; it is said which.\n\n"
-      "  plumb compare pipelines/zhang2023.yaml --variant unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2");
+      "The columns are means over the inputs; 'less by' is how much less the pipeline has than the "
+      "variant, with the 95 % confidence\n"
+      "of the inputs' differences. Times count CPU seconds of the steps, and wall clock seconds of "
+      "the whole run.\n"
+      "Exit 1 when anything is refused before the first run, 3 when a run fails; it is said "
+      "which.\n\n"
+      "  plumb compare pipelines/zhang2023.yaml --variant "
+      "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2");
   command->callback([options] { compare(*options); });
 }
 
