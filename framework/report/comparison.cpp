@@ -63,16 +63,18 @@ std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
   };
   const std::string what =
       chosen.timed == ComparedFigures{}.timed ? "matching" : chosen.timed + "*";
-  double seconds = 0, iterations = 0;
+  double seconds = 0, all_seconds = 0, iterations = 0;
   bool any_timed = false, any_iterations = false;
-  for (const StepTime& time : result.times)
+  for (const StepTime& time : result.times) {
+    all_seconds += time.cpu_seconds;
     if (is_timed(time.path)) seconds += time.cpu_seconds, any_timed = true;
+  }
   for (const StepCount& count : result.counts)
     if (count.what == "iterations" && is_timed(count.path))
       iterations += static_cast<double>(count.n), any_iterations = true;
   if (any_timed) figures.push_back({what + " time", seconds, "CPU s"});
   if (any_iterations) figures.push_back({what + " iterations", iterations, ""});
-  figures.push_back({"time", result.seconds, "s"});
+  figures.push_back({"time", all_seconds, "CPU s"});
   return figures;
 }
 

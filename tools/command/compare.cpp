@@ -204,8 +204,7 @@ void add_compare(CLI::App& app) {
   command->footer(
       "The columns are means over the inputs; 'less by' is how much less the pipeline has than the "
       "variant, with the 95 % confidence\n"
-      "of the inputs' differences. Times count CPU seconds of the steps, and wall clock seconds of "
-      "the whole run.\n"
+      "of the inputs' differences. Times are CPU seconds: of those steps, and of all.\n"
       "Exit 1 when anything is refused before the first run, 3 when a run fails; it is said "
       "which.\n\n"
       "  plumb compare pipelines/zhang2023.yaml --variant "
