@@ -68,8 +68,8 @@ struct RegisterCorrelative : EdgeStep {
     out.overlap = static_cast<float>(found.score);
     out.accepted = found.score >= params.least_score;
     if (out.accepted) {
-      // A cell's width as standard deviation; a relation's rotation is a quaternion's vector, half the angle.
-      const double place = std::pow(params.fine_resolution, -2), heading = 4 * std::pow(found.yaw_step, -2);
+      // A cell's width as standard deviation.
+      const double place = std::pow(params.fine_resolution, -2), heading = std::pow(found.yaw_step, -2);
       out.information.diagonal() << place, place, 0, 0, 0, heading;
     }
     if (found.retried) context.count("searched again in all headings", 1);

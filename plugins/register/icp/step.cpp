@@ -73,12 +73,9 @@ struct Register : EdgeStep {
       out.iterations = found.iterations, out.pairs = found.pairs;
       out.mae = static_cast<float>(found.mae), out.overlap = static_cast<float>(found.overlap);
       out.accepted = found.pairs >= 3 && found.overlap >= params.least_overlap;
-      // A relation's rotation is a quaternion's vector, half the angle: hence the 2 and 4.
       const int at[3] = {0, 1, 5};
-      const double per[3] = {1, 1, 2};
       for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-          out.information(at[r], at[c]) = per[r] * per[c] * found.information(r, c);
+        for (int c = 0; c < 3; ++c) out.information(at[r], at[c]) = found.information(r, c);
     }
     context.count("iterations", out.iterations);
     if (!out.accepted) context.count("registrations not accepted", 1);
