@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "plumb/geometry/alignment.hpp"
 
@@ -27,8 +28,12 @@ std::vector<Eigen::Vector3d> positions(const std::vector<Pose>& poses) {
 
 PosePairs pair_by_stamp(const Trajectory& estimate, const Trajectory& truth, double tolerance) {
   PosePairs pairs;
-  const auto& stamps = truth.stamps;
-  if (stamps.empty()) return pairs;
+  if (truth.stamps.empty()) return pairs;
+  std::vector<std::size_t> order(truth.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return truth.stamps[k]; });
+  std::vector<double> stamps(truth.size());
+  for (std::size_t k = 0; k < order.size(); ++k) stamps[k] = truth.stamps[order[k]];
   for (std::size_t k = 0; k < estimate.size(); ++k) {
     const double stamp = estimate.stamps[k];
     auto near = static_cast<std::size_t>(std::ranges::lower_bound(stamps, stamp) - stamps.begin());
@@ -36,7 +41,7 @@ PosePairs pair_by_stamp(const Trajectory& estimate, const Trajectory& truth, dou
     if (near > 0 && std::abs(stamps[near - 1] - stamp) < std::abs(stamps[near] - stamp)) --near;
     if (!(std::abs(stamps[near] - stamp) < tolerance)) continue;
     pairs.estimate.push_back(estimate.T_world_frame[k]);
-    pairs.truth.push_back(truth.T_world_frame[near]);
+    pairs.truth.push_back(truth.T_world_frame[order[near]]);
   }
   return pairs;
 }

@@ -14,8 +14,8 @@ struct PosePairs {
 };
 
 /// Pairs each pose of `estimate` with the pose of `truth` whose stamp is nearest (of two as near
-/// the later one), if that is less than `tolerance` [s] away; the others are left out. Stamps
-/// increase in both.
+/// the later one), if that is less than `tolerance` [s] away; the others are left out. Stamps may
+/// step back in both.
 PosePairs pair_by_stamp(const Trajectory& estimate, const Trajectory& truth,
                         double tolerance = 2e-3);
 

@@ -69,6 +69,16 @@ TEST(TrajectoryError, PairsOnlyStampsWithinTheTolerance) {
   EXPECT_EQ(pairs.truth[2].translation.x(), 9);
 }
 
+TEST(TrajectoryError, PairsStampsThatStepBack) {
+  Trajectory truth = straight(10), estimate = straight(10);
+  std::swap(truth.stamps[3], truth.stamps[4]), std::swap(truth.T_world_frame[3], truth.T_world_frame[4]);
+  std::swap(estimate.stamps[6], estimate.stamps[7]), std::swap(estimate.T_world_frame[6], estimate.T_world_frame[7]);
+  const auto pairs = pair_by_stamp(estimate, truth);
+  ASSERT_EQ(pairs.size(), 10u);
+  EXPECT_EQ(absolute_error(pairs).max, 0);
+  EXPECT_EQ(pairs.truth[6].translation.x(), 7);
+}
+
 TEST(TrajectoryError, OfNothingOrOfAShortPathIsNoNumber) {
   EXPECT_TRUE(std::isnan(absolute_error({}).rmse));
   EXPECT_EQ(pair_by_stamp(straight(3), {}).size(), 0u);

@@ -59,10 +59,14 @@ std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
         figures.push_back({made.path + "." + number.name, number.value, number.unit});
   }
   const auto is_timed = [&](const std::string& path) {
-    return step_at(plan, path).description->name.starts_with(chosen.timed);
+    const std::string& name = step_at(plan, path).description->name;
+    return std::ranges::any_of(chosen.timed, [&](const auto& first) { return name.starts_with(first); });
   };
-  const std::string what =
-      chosen.timed == ComparedFigures{}.timed ? "matching" : chosen.timed + "*";
+  std::string what = "matching";
+  if (chosen.timed != ComparedFigures{}.timed) {
+    what.clear();
+    for (const std::string& first : chosen.timed) what += (what.empty() ? "" : " ") + first + "*";
+  }
   double seconds = 0, all_seconds = 0, iterations = 0;
   bool any_timed = false, any_iterations = false;
   for (const StepTime& time : result.times) {

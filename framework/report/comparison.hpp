@@ -13,8 +13,8 @@ struct ComparedFigures {
   /// Globs (fnmatch) over "STEP.NUMBER", as in "error.*.ate". None: all numbers of steps called
   /// error, map_error and relation_error; where these measure several stages, of the last one.
   std::vector<std::string> metrics;
-  std::string timed = "register.";  ///< steps of which these are the first letters are what is
-                                    ///< timed and whose iterations count
+  /// Steps whose names begin so are what is timed and whose iterations count.
+  std::vector<std::string> timed = {"register.", "track."};
 };
 
 /// The numbers of one run that are compared, named "STEP.NUMBER": those chosen; then CPU time and

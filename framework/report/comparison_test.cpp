@@ -70,7 +70,7 @@ TEST(Comparison, TakesTheErrorsOfTheLastStageAndTheTimeOfMatching) {
 
 TEST(Comparison, TakesWhatIsAskedForOfAnyStepAndStage) {
   EXPECT_THAT(
-      SmallRun().texts({{"*.ate", "*.before.*", "fine.matched.rmse"}, "measure.a"}),
+      SmallRun().texts({{"*.ate", "*.before.*", "fine.matched.rmse"}, {"measure.a"}}),
       ElementsAre("fine.matched.rmse 0.2 m", "error.before.ate 2 m", "error.fine.ate 0.1 m",
                   "measure.a* time 0.25 CPU s", "measure.a* iterations 7 ", "time 1.75 CPU s"));
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 TrajectoryScore score(const fs::path& file, const Trajectory& truth,
                       const std::vector<fs::path>* frames) {
-  const PosePairs pairs = pair_by_stamp(read_tum(file), truth);
+  const PosePairs pairs = pair_by_stamp(read_tum(file, StampOrder::any), truth);
   if (pairs.size() == 0)
     io::refuse(file,
                "none of its stamps lies within 2 ms of a stamp of the truth: give a trajectory of "
@@ -32,7 +32,7 @@ Evaluation evaluate(const EvaluationInput& input) {
   const auto truth_file = input.truth.empty() ? input.sequence / "truth.tum" : input.truth;
   if (input.truth.empty() && !fs::exists(truth_file))
     io::refuse(input.sequence, "has no truth.tum to judge by: give one with --truth");
-  const Trajectory truth = read_tum(truth_file);
+  const Trajectory truth = read_tum(truth_file, StampOrder::any);
   std::vector<fs::path> frames;
   if (input.clouds) {
     for (auto& file : io::sequence_frames(input.sequence)) frames.push_back(std::move(file.path));

@@ -88,13 +88,13 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline) {
   return sets;
 }
 
-void require_timed(const std::string& prefix, const Plan& pipeline) {
-  if (prefix == ComparedFigures{}.timed) return;
-  for (const PlannedStep& step : pipeline.steps)
-    if (step.description->name.starts_with(prefix)) return;
-  throw Error(
-      "--time " + prefix + ": no step of " + pipeline.files.front() +
-      " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
+void require_timed(const std::vector<std::string>& timed, const Plan& pipeline) {
+  if (timed == ComparedFigures{}.timed) return;
+  for (const std::string& first : timed)
+    if (std::ranges::none_of(pipeline.steps, [&](const PlannedStep& step) { return step.description->name.starts_with(first); }))
+      throw Error(
+          "--time " + first + ": no step of " + pipeline.files.front() +
+          " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
 void compare(const Options& options) {
@@ -191,7 +191,8 @@ void add_compare(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--time", options->figures.timed,
-                   "Steps whose time and iterations are compared: how their 'use' begins")
+                   "Steps whose time and iterations are compared: how their 'use' begins; may be given again")
+      ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
                       "Keeps each run's results in OUTPUT/VARIANT/INPUT");

@@ -8,10 +8,13 @@
 
 namespace plumb {
 
+/// Whether each stamp of a file must be later than the one before, or may step back, as in a log whose clock did and in what is written from it.
+enum class StampOrder { later, any };
+
 /// Reads `stamp tx ty tz qx qy qz qw` lines (comments with #). Quaternions are normalised.
 /// Throws Error with file:line for: cannot be opened, fewer or more than 8 numbers, text that is no number, NaN, a quaternion
-/// of norm 0, a stamp that is not later than the one before, no pose at all.
-Trajectory read_tum(const std::filesystem::path& file);
+/// of norm 0, no pose at all and, unless any `order` will do, a stamp that is not later than the one before.
+Trajectory read_tum(const std::filesystem::path& file, StampOrder order = StampOrder::later);
 
 /// Reads KITTI poses (12 numbers a line, a 3x4 matrix world_T_camera or world_T_frame) with the stamps of `times`, one a line.
 /// Throws Error as read_tum, and when the two files differ in length or a rotation is not orthonormal to 1e-2.

@@ -13,7 +13,7 @@ namespace plumb {
 
 using namespace io;
 
-Trajectory read_tum(const std::filesystem::path& file) {
+Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
   const FileBytes bytes(file);
   const std::string kind = kind_of_content(bytes.view());
   if (!kind.empty() && kind != "a trajectory (TUM)" && kind != "lines of numbers")
@@ -30,7 +30,7 @@ Trajectory read_tum(const std::filesystem::path& file) {
              "the quaternion has norm 0, so it is no rotation: correct the line (no rotation is 0 "
              "0 0 1)");
     q.coeffs() /= norm;
-    require_later(file, lines.number(), result.stamps, v[0]);
+    if (order == StampOrder::later) require_later(file, lines.number(), result.stamps, v[0]);
     result.stamps.push_back(v[0]);
     result.T_world_frame.emplace_back(q, Eigen::Vector3d(v[1], v[2], v[3]));
   }

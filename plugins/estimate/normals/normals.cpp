@@ -9,7 +9,6 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t block_points = 1024;  // fixed, so that blocks do not follow the threads
-constexpr double most_across = 0.4;      // of a line's points: spread across it to spread along it
 constexpr double line_ratio = 1e-6;  // middle to largest eigenvalue: 1 mm of width on 1 m of length
 
 /// Finds the neighbours of one point after another, in memory of its own.
@@ -68,23 +67,6 @@ Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count) {
   if (!(eigen.eigenvalues()[1] > line_ratio * eigen.eigenvalues()[2]))
     return Eigen::Vector3f::Zero();
   return eigen.eigenvectors().col(0).normalized().cast<float>();
-}
-
-Eigen::Vector3f line_normal(const Eigen::Vector3f* points, std::size_t count) {
-  if (count < 3) return Eigen::Vector3f::Zero();
-  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (std::size_t m = 0; m < count; ++m) {
-    const double px = points[m].x(), py = points[m].y();
-    x += px, y += py;
-    xx += px * px, xy += px * py, yy += py * py;
-  }
-  const double n = static_cast<double>(count);
-  const double a = xx - x * x / n, b = xy - x * y / n, c = yy - y * y / n;
-  const double half = 0.5 * (a + c), root = std::sqrt(std::max(0.0, half * half - (a * c - b * b)));
-  const double along = half + root, across = std::max(0.0, half - root);
-  if (!(along > 0) || across > most_across * most_across * along) return Eigen::Vector3f::Zero();
-  const double angle = 0.5 * std::atan2(2 * b, a - c);  // of the line
-  return {static_cast<float>(-std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
 }
 
 std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbourhood& of,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "plumb/data/cloud.hpp"
+#include "plumb/geometry/line_normal.hpp"
 #include "plumb/geometry/search_tree.hpp"
 #include "plumb/plugin/context.hpp"
 
@@ -32,10 +33,5 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
 /// zero if there are fewer than 3 or they lie on one line. Coordinates should be small (taken from
 /// a point nearby), so that the sums keep their digits.
 Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count);
-
-/// The same in the plane: the unit normal, with z = 0, of the line that fits the points' x and y best.
-/// Zero if there are fewer than 3, or if they make no line: across it they spread more than
-/// 0.4 times as far (standard deviations) as along it, as at a corner or in clutter.
-Eigen::Vector3f line_normal(const Eigen::Vector3f* points, std::size_t count);
 
 }  // namespace plumb

@@ -1,5 +1,6 @@
 #include "gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,18 +13,44 @@ double change_of(double r0, double r1) {
   return ratio * ratio;
 }
 
+namespace {
+
+/// Stretches [s] between each scan and the one before it in the sequence; 0 where stamps step back.
+std::vector<double> stretches(const std::vector<Seen>& scans) {
+  std::vector<double> between(scans.size(), 0);
+  for (std::size_t k = 1; k < scans.size(); ++k) between[k] = std::max(0.0, scans[k].begin - scans[k - 1].end);
+  return between;
+}
+
+double median_of_positive(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return v <= 0; });
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
 Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options) {
   Gated result;
   result.edges.segments = static_cast<std::uint32_t>(scans.size());
+  const std::vector<double> between = stretches(scans);
+  const double longest = options.gap ? std::max(*options.gap, options.patience * median_of_positive(between)) : 0;
   std::optional<std::uint32_t> last;
   std::uint32_t dropped = 0;  // for their change, since the last accepted one
+  bool after_gap = false;     // since the last accepted one
   for (std::uint32_t k = 0; k < scans.size(); ++k) {
+    after_gap = after_gap || (options.gap && between[k] > longest);
     if (scans[k].points < options.least_points) {
       ++result.empty;
       continue;
     }
     EdgeKind kind = EdgeKind::sequential;
-    if (last && change_of(scans[k].range, scans[*last].range) > options.limit) {
+    if (last && after_gap) {
+      ++result.resets, ++result.gaps;
+      kind = EdgeKind::neighbour;
+    } else if (last && change_of(scans[k].range, scans[*last].range) > options.limit) {
       if (dropped < options.patience) {
         ++dropped;
         ++result.far;
@@ -38,7 +65,7 @@ Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options) {
     }
     ++result.accepted;
     last = k;
-    dropped = 0;
+    dropped = 0, after_gap = false;
   }
   return result;
 }

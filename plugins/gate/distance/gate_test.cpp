@@ -58,6 +58,34 @@ TEST(GateDistance, DropsEmptyScansWithoutLosingPatience) {
   EXPECT_EQ(gated.resets, 0u);
 }
 
+/// Scans of 100 points at 2 m, with these stamps [s].
+std::vector<Seen> scans_when(const std::vector<double>& stamps) {
+  std::vector<Seen> scans;
+  for (const double t : stamps) scans.push_back({2, 100, t, t});
+  return scans;
+}
+
+TEST(GateDistance, StartsAgainAfterAStretchWithoutScans) {
+  GateOptions options;
+  options.gap = 3;
+  auto scans = scans_when({0, 0.2, 0.4, 4.4, 4.6, 4.8});
+  auto gated = gated_chain(scans, options);
+  EXPECT_EQ(text(gated.edges), "0-1 1-2 2-3! 3-4 4-5");
+  EXPECT_EQ(gated.resets, 1u);
+  EXPECT_EQ(gated.gaps, 1u);
+  scans[3].points = 0;  // the first scan after it is of no use: the next one starts
+  EXPECT_EQ(text(gated_chain(scans, options).edges), "0-1 1-2 2-4! 4-5");
+  options.gap = std::nullopt;
+  EXPECT_EQ(gated_chain(scans, options).resets, 0u);
+}
+
+TEST(GateDistance, TakesNoGapFromSlowLogsOrStampsThatStepBack) {
+  GateOptions options;
+  options.gap = 3;
+  EXPECT_EQ(gated_chain(scans_when({0, 4, 8, 12, 16, 30}), options).resets, 0u);  // 14 s are but 3.5 usual stretches
+  EXPECT_EQ(gated_chain(scans_when({0, 0.2, 0.4, -90, -89.8, 0.6, 0.8}), options).gaps, 1u);
+}
+
 TEST(GateDistance, CountsEveryScanOnce) {
   Random random(3);
   for (int turn = 0; turn < 50; ++turn) {
@@ -84,6 +112,26 @@ TEST(GateDistance, TakesTheRangeOfTheCloudsOwnCentre) {
   EXPECT_EQ(text(step.run<Edges>("edges", context)), "0-1 1-3");
   EXPECT_EQ(context.counts["scans dropped because they jump"], 1u);
   EXPECT_EQ(step.run<Metrics>("metrics", context).numbers[1].value, 1);
+}
+
+TEST(GateDistance, TakesStampsFromTheTrajectory) {
+  std::vector<Segment> segments(8);
+  Trajectory trajectory;
+  for (std::uint32_t k = 0; k < 16; ++k) trajectory.stamps.push_back(0.2 * k + (k < 10 ? 0 : 60));
+  trajectory.T_world_frame.resize(16);
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    Cloud cloud;
+    for (int n = 0; n < 20; ++n) cloud.add({2, 0.1f * static_cast<float>(n - 10), 0});
+    segments[k] = Segment().with(cloud, std::vector<std::uint16_t>(20, 0));
+    segments[k].range.first = 2 * k, segments[k].range.end = 2 * k + 2;
+  }
+  TestContext context;
+  EXPECT_EQ(text(StepRun(*plumb_module()).each("segments", segments).with("trajectory", trajectory).run<Edges>("edges", context)),
+            "0-1 1-2 2-3 3-4 4-5! 5-6 6-7");
+  trajectory.stamps.resize(15), trajectory.T_world_frame.resize(15);
+  StepRun other(*plumb_module());
+  other.each("segments", segments).with("trajectory", trajectory);
+  EXPECT_THROW(other.run<Edges>("edges", context), Error);
 }
 
 TEST(GateDistance, SaysThatThereIsNoChain) {

@@ -1,4 +1,5 @@
 #include "gate.hpp"
+#include "plumb/data/trajectory.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb {
@@ -7,6 +8,7 @@ namespace {
 struct GateDistance : WholeStep {
   struct In {
     Each<Segment> segments;
+    One<Trajectory> trajectory;
   };
   struct Out {
     Edges edges;
@@ -15,9 +17,10 @@ struct GateDistance : WholeStep {
   using Params = GateOptions;
 
   static void describe(Declaration<GateDistance>& is) {
-    is.name("gate.distance").version(1).source("[Zhang2023] eq. 13");
+    is.name("gate.distance").version(2).source("[Zhang2023] eq. 13");
     is.summary("Joins each scan to the one before, leaving out those that jump.");
     is.input("segments", &In::segments, "the scans in order, one a segment");
+    is.optional_input("trajectory", &In::trajectory, "the frames' stamps: with them a stretch without scans starts a new window");
     is.output("edges", &Out::edges, "the chain: each accepted scan and the accepted one before it");
     is.output("metrics", &Out::metrics, "scans accepted and dropped, windows started again");
     is.param("limit", &Params::limit)
@@ -27,6 +30,10 @@ struct GateDistance : WholeStep {
     is.param("patience", &Params::patience)
         .range(0, 1e6)
         .doc("after so many dropped in a row the window is emptied and starts again with the present scan");
+    is.param("gap", &Params::gap)
+        .unit("s")
+        .range(0, 1e9)
+        .doc("after a longer stretch without scans, if it is longer than 'patience' usual ones too, the window starts again; none: never");
     is.param("least_points", &Params::least_points).range(1, 1e6).doc("scans with fewer points are dropped");
   }
 
@@ -35,6 +42,12 @@ struct GateDistance : WholeStep {
     context.parallel(scans.size(), [&](std::size_t k) {
       const auto segment = in.segments.open(k);
       scans[k] = {segment->centroid.cast<double>().norm(), segment->cloud.size()};
+      if (!in.trajectory) return;
+      const Range& range = segment->range;
+      if (range.size() == 0 || range.end > in.trajectory->size())
+        throw Error("a segment holds frames up to " + std::to_string(range.end) + ", the trajectory has " +
+                    std::to_string(in.trajectory->size()) + ": wire the trajectory that the segments were cut from");
+      scans[k].begin = in.trajectory->stamps[range.first], scans[k].end = in.trajectory->stamps[range.end - 1];
     });
     Gated gated = gated_chain(scans, params);
     const auto count = [&](const char* what, std::size_t n) {
@@ -43,6 +56,7 @@ struct GateDistance : WholeStep {
     count("scans dropped because they jump", gated.far);
     count("scans dropped because they have too few points", gated.empty);
     count("windows started again", gated.resets);
+    count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)
       context.warn("fewer than two scans of " + std::to_string(scans.size()) + " are accepted: there is no chain");
     Out out;

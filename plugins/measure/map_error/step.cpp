@@ -64,7 +64,7 @@ struct MeasureMapError : WholeStep {
             "measure.map_error has a truth but no trajectory to lay onto it: wire 'trajectory' or "
             "set 'truth: none'");
       const PosePairs pairs =
-          pair_by_stamp(*in.trajectory, read_tum(*params.truth), params.tolerance);
+          pair_by_stamp(*in.trajectory, read_tum(*params.truth, StampOrder::any), params.tolerance);
       if (pairs.size() == 0)
         throw Error(params.truth->string() +
                     ": no pose has the stamp of a pose of the trajectory, so the map cannot be "

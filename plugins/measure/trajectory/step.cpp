@@ -42,7 +42,7 @@ struct MeasureTrajectory : WholeStep {
       out.metrics.notes.push_back("no truth was given, so the trajectories' errors are not known");
       return out;
     }
-    const Trajectory truth = read_tum(*params.truth);
+    const Trajectory truth = read_tum(*params.truth, StampOrder::any);
     for (const auto& [label, trajectory] : in.trajectories) {
       const PosePairs pairs = pair_by_stamp(*trajectory, truth, params.tolerance);
       const std::string of = label.empty() ? "" : label + ".";

@@ -1,5 +1,6 @@
-#include "icp.hpp"
 #include "plumb/data/registration.hpp"
+#include "plumb/data/segment.hpp"
+#include "plumb/geometry/planar_icp.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb {
@@ -46,7 +47,7 @@ struct Register : EdgeStep {
               {{"point", Metric::point, "the distance of the pairs"},
                {"line", Metric::line, "its part along the target's normal (estimate.normals with planar)"}})
         .doc("what is made small").source("[Zhang2023] eq. (3)");
-    is.param("iterations", &Params::iterations).range(1, 10000).doc("the most iterations");
+    is.param("iterations", &Params::iterations).range(0, 10000).doc("the most iterations; 0: where they are is only judged");
     is.param("noise", &Params::noise).unit("m").range(1e-4, 10)
         .doc("standard deviation of a pair's residual, for the information");
     is.param("hold", &Params::hold).unit("m").range(1e-4, 100)

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "cells.hpp"
+#include "plumb/geometry/spots.hpp"
 #include "plumb/plugin/module.hpp"
 #include "window.hpp"
 
@@ -23,7 +23,7 @@ struct SlidingWindow : WholeStep {
   };
 
   static void describe(Declaration<SlidingWindow>& is) {
-    is.name("stitch.sliding_window").version(1).source("[Zhang2023] 2, fig. 2-4");
+    is.name("stitch.sliding_window").version(2).source("[Zhang2023] 2, fig. 2-4");
     is.summary("Stitches each scan with those before it into one group of points.");
     is.input("segments", &In::segments, "the scans in order, one a segment");
     is.input("poses", &In::poses, "where the scans are");
@@ -40,7 +40,7 @@ struct SlidingWindow : WholeStep {
     is.param("leaf", &Params::leaf)
         .unit("m")
         .range(0.001, 1000)
-        .doc("edge length of the cells of which each keeps its points' mean; none: every point stays");
+        .doc("points so near to one that is kept become one with it, their mean; none: every point stays");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -67,9 +67,9 @@ struct SlidingWindow : WholeStep {
   static Cloud stitched(const std::vector<One<Segment>>& scans, const Poses& poses, const Windows& windows,
                         std::size_t k, const std::optional<double>& leaf) {
     Cloud all;
-    std::optional<Cells> cells;
+    std::optional<Spots> spots;
     if (leaf) {
-      cells.emplace(*leaf);
+      spots.emplace(*leaf);
     } else {
       std::size_t points = 0;
       for (auto p = windows.first[k]; p < windows.end[k]; ++p) points += scans[windows.members[p]]->cloud.size();
@@ -81,11 +81,11 @@ struct SlidingWindow : WholeStep {
       const Motion motion(poses.relative(k, member));
       for (std::size_t n = 0; n < scan.size(); ++n) {
         const Eigen::Vector3f point = motion * scan.point(n);
-        if (cells) cells->add(point.x(), point.y(), point.z());
+        if (spots) spots->add(point.x(), point.y(), point.z());
         else all.add(point);
       }
     }
-    return cells ? cells->cloud() : all;
+    return spots ? spots->means<Cloud>() : all;
   }
 };
 

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "cells.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
 namespace plumb {
@@ -113,28 +112,6 @@ TEST(SlidingWindow, ThinsToOnePointACell) {
   const auto groups = groups_of(Drive(), 0.5);
   EXPECT_EQ(groups[4].cloud.size(), 4u);  // the corner, seen three times, and three points of their own
   EXPECT_LT((groups[4].cloud.point(0) - Drive().scans[4].cloud.point(0)).norm(), 1e-5f);
-}
-
-TEST(SlidingWindow, KeepsTheMeanOfEachCellAsAMapDoes) {
-  Random random(5);
-  Cells cells(0.25);
-  std::map<std::tuple<int, int, int>, std::pair<Eigen::Vector3d, int>> expected;
-  for (int k = 0; k < 20000; ++k) {
-    const Eigen::Vector3f p = 20 * Eigen::Vector3f(static_cast<float>(random.uniform()) - 0.5f,
-                                                   static_cast<float>(random.uniform()) - 0.5f, 0.01f);
-    cells.add(p.x(), p.y(), p.z());
-    auto& [sum, n] = expected.try_emplace({std::floor(4 * p.x()), std::floor(4 * p.y()), std::floor(4 * p.z())},
-                                          Eigen::Vector3d::Zero(), 0).first->second;
-    sum += p.cast<double>();
-    ++n;
-  }
-  const Cloud cloud = cells.cloud();
-  ASSERT_EQ(cloud.size(), expected.size());
-  for (std::size_t k = 0; k < cloud.size(); ++k) {
-    const auto p = cloud.point(k);
-    const auto& [sum, n] = expected.at({std::floor(4 * p.x()), std::floor(4 * p.y()), std::floor(4 * p.z())});
-    EXPECT_LT((p.cast<double>() - sum / n).norm(), 1e-5);
-  }
 }
 
 TEST(SlidingWindow, RefusesPosesOfOtherSegments) {

@@ -1,4 +1,4 @@
-#include "icp.hpp"
+#include "plumb/geometry/planar_icp.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr double points_that_count_as_one = 10;
 
 class Icp {
  public:
-  Icp(const Cloud& target, const SearchTree& tree, const Cloud& source, const PlanarPose& start,
+  Icp(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source, const PlanarPose& start,
       const IcpOptions& options)
       : target_(target), tree_(tree), source_(source), start_(start), options_(options) {
     result_.T = start;
@@ -25,6 +25,7 @@ class Icp {
   }
 
   IcpResult run() {
+    if (options_.iterations == 0) pair_up();
     double mae_before = -1;
     while (result_.iterations < options_.iterations) {
       pair_up();
@@ -58,7 +59,7 @@ class Icp {
       sum += std::sqrt(found.squared_distance);
     }
     result_.pairs = static_cast<std::uint32_t>(pairs_.size());
-    result_.overlap = source_.empty() ? 0 : static_cast<double>(pairs_.size()) / static_cast<double>(source_.size());
+    result_.overlap = source_.size() == 0 ? 0 : static_cast<double>(pairs_.size()) / static_cast<double>(source_.size());
     result_.mae = pairs_.empty() ? 0 : sum / static_cast<double>(pairs_.size());
   }
 
@@ -138,9 +139,9 @@ class Icp {
     return all;
   }
 
-  const Cloud& target_;
+  const PlanarPoints& target_;
   const SearchTree& tree_;
-  const Cloud& source_;
+  const PlanarPoints& source_;
   PlanarPose start_;
   const IcpOptions& options_;
   std::vector<Pair> pairs_;
@@ -149,7 +150,7 @@ class Icp {
 
 }  // namespace
 
-IcpResult lay_onto(const Cloud& target, const SearchTree& tree, const Cloud& source,
+IcpResult lay_onto(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
                    const PlanarPose& start, const IcpOptions& options) {
   return Icp(target, tree, source, start, options).run();
 }

@@ -1,10 +1,12 @@
 #pragma once
 /// Iterated closest points in the plane, with two rules for when to stop. Source: [Zhang2023] eq. (1) to (12).
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
-#include "plumb/data/segment.hpp"
 #include "plumb/geometry/planar.hpp"
+#include "plumb/geometry/search_tree.hpp"
 
 namespace plumb {
 
@@ -15,6 +17,17 @@ enum class Stop {
 enum class Metric {
   point,  ///< eq. (3): the distance of the pairs
   line    ///< its part along the target's normal; pairs whose target point has none are left out
+};
+
+/// Points of the plane [m] that lie elsewhere, and their unit normals; nx and ny are empty where there are none, (0, 0) where a point has none.
+struct PlanarPoints {
+  std::span<const float> x, y, nx, ny;
+
+  /// Of anything with arrays x, y, nx, ny, such as a Cloud.
+  template <class Points>
+  PlanarPoints(const Points& points) : x(points.x), y(points.y), nx(points.nx), ny(points.ny) {}
+  std::size_t size() const { return x.size(); }
+  bool has_normals() const { return !x.empty() && nx.size() == x.size(); }
 };
 
 struct IcpOptions {
@@ -34,12 +47,12 @@ struct IcpResult {
   std::uint32_t pairs = 0;       ///< in the last iteration
   double mae = 0;                ///< [m] mean distance of those pairs
   double overlap = 0;            ///< share of the source's points that have a pair
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see icp.cpp
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see planar_icp.cpp
 };
 
-/// Lays `source` onto `target`, whose z are ignored, from `start` on. Pairs are each source point and the nearest target point
-/// (`tree` holds the target's points). Fewer than 3 pairs: the pose stays as it is and overlap says so.
-IcpResult lay_onto(const Cloud& target, const SearchTree& tree, const Cloud& source,
+/// Lays `source` onto `target` from `start` on. Pairs are each source point and the nearest target point (`tree` holds the
+/// target's points, with z = 0). Fewer than 3 pairs: the pose stays as it is and overlap says so. With 0 iterations the start is only judged.
+IcpResult lay_onto(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
                    const PlanarPose& start, const IcpOptions& options);
 
 }  // namespace plumb

@@ -1,0 +1,121 @@
+#include "track.hpp"
+
+#include <cmath>
+
+#include "plumb/data/error.hpp"
+
+namespace plumb {
+namespace {
+
+class Tracker {
+ public:
+  Tracker(std::span<const Cloud* const> scans, const Poses& initial, const TrackOptions& options)
+      : scans_(scans), initial_(initial), options_(options), group_(options),
+        lines_(options.icp.metric == Metric::line), poses_(scans.size()) {
+    result_.poses = initial;
+  }
+
+  Tracked run(const Edges& chain) {
+    if (chain.size() == 0) return std::move(result_);
+    const std::uint32_t first = chain.list.front().i;
+    place(first, planar(initial_.T_world_segment[first]));
+    group_.add(*scans_[first], poses_[first], lines_);
+    for (const Edge& edge : chain.list) {
+      const bool fits = follow(edge);
+      between(edge);
+      take(edge, fits);
+    }
+    outside(first, chain.list.back().j);
+    return std::move(result_);
+  }
+
+ private:
+  /// Places scan j of the edge; whether it fits.
+  bool follow(const Edge& edge) {
+    const PlanarPose expected = planar(initial_.relative(edge.i, edge.j));
+    const bool known = expected.x != 0 || expected.y != 0 || expected.yaw != 0;
+    const PlanarPose start = poses_[edge.i] * (known ? expected : motion_);
+    IcpOptions icp = options_.icp;
+    if (!known) icp.hold.reset();
+    const Cloud& scan = *scans_[edge.j];
+
+    IcpResult found = group_.lay(scan, start, icp);
+    std::uint32_t iterations = found.iterations;
+    const auto search = [&](Breadth breadth) {
+      const auto peak = group_.search(scan, start, known, breadth);
+      if (!peak) return;
+      const IcpResult other = group_.lay(scan, *peak, icp);
+      iterations += other.iterations;
+      if (group_.score(scan, other.T, start, known) > group_.score(scan, found.T, start, known)) found = other;
+    };
+    if (options_.search_below && found.overlap < *options_.search_below) {
+      ++result_.searched;
+      search(Breadth::near);
+      if (found.overlap < options_.least_overlap) search(Breadth::all_headings);
+    }
+    const bool fits = found.pairs >= 3 && found.overlap >= options_.least_overlap;
+    ++result_.laid;
+    result_.iterations += iterations, result_.mae += found.mae, result_.overlap += found.overlap;
+    result_.unfit += !fits;
+    place(edge.j, fits ? found.T : poses_[edge.i] * expected);
+    motion_ = fits ? poses_[edge.i].inverse() * poses_[edge.j] : PlanarPose{};
+    return fits;
+  }
+
+  /// Lets scan j of the edge into the window, or start a new one.
+  void take(const Edge& edge, bool fits) {
+    unfit_in_a_row_ = fits ? 0 : unfit_in_a_row_ + 1;
+    if (edge.kind != EdgeKind::sequential || unfit_in_a_row_ > options_.patience) {
+      group_.clear();
+      ++result_.restarts;
+      unfit_in_a_row_ = 0;
+    } else if (!fits || !far(poses_[edge.j])) {
+      return;
+    }
+    group_.add(*scans_[edge.j], poses_[edge.j], lines_);
+  }
+
+  bool far(const PlanarPose& pose) const {
+    const PlanarPose from = group_.newest();
+    return std::hypot(pose.x - from.x, pose.y - from.y) > options_.every || std::abs(wrapped(pose.yaw - from.yaw)) > options_.turn;
+  }
+
+  void place(std::uint32_t k, PlanarPose pose) {
+    pose.yaw = wrapped(pose.yaw);
+    poses_[k] = pose;
+    result_.poses.T_world_segment[k] = in_space(pose);
+  }
+  /// Scans that the edge leaves out.
+  void between(const Edge& edge) {
+    auto& T = result_.poses.T_world_segment;
+    for (std::uint32_t k = edge.i + 1; k < edge.j; ++k)
+      T[k] = interpolate(T[edge.i], T[edge.j], static_cast<double>(k - edge.i) / (edge.j - edge.i));
+  }
+  /// Scans before and after the chain.
+  void outside(std::uint32_t first, std::uint32_t last) {
+    auto& T = result_.poses.T_world_segment;
+    for (std::uint32_t k = 0; k < first; ++k) T[k] = T[first] * initial_.relative(first, k);
+    for (std::size_t k = last + 1; k < T.size(); ++k) T[k] = T[last] * initial_.relative(last, k);
+  }
+
+  std::span<const Cloud* const> scans_;
+  const Poses& initial_;
+  const TrackOptions& options_;
+  Group group_;
+  bool lines_;
+  std::vector<PlanarPose> poses_;
+  PlanarPose motion_;  ///< between the last two
+  std::uint32_t unfit_in_a_row_ = 0;
+  Tracked result_;
+};
+
+}  // namespace
+
+Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain, const TrackOptions& options) {
+  if (initial.size() != scans.size() || chain.segments != scans.size())
+    throw Error("there are " + std::to_string(scans.size()) + " scans, " + std::to_string(initial.size()) +
+                " poses and a chain of " + std::to_string(chain.segments) + "; wire those of the same scans");
+  return Tracker(scans, initial, options).run(chain);
+}
+
+}  // namespace plumb
