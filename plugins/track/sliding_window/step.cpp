@@ -27,7 +27,8 @@ struct TrackSlidingWindow : WholeStep {
     double change = 1e-4, ratio = 0.95;
     std::optional<double> hold;
     double least_overlap = 0.5;
-    std::optional<double> search_below = 0.98;
+    std::optional<double> search_below = 0.9;
+    double search_blind = 0.98;
     double search_reach = 0.6, search_turn = 0.5, lost_reach = 1.5;
     std::uint32_t patience = 5;
     std::string check() const { return hold && metric == Metric::point ? "'hold' goes with 'metric: line'" : ""; }
@@ -67,6 +68,7 @@ struct TrackSlidingWindow : WholeStep {
         .doc("share of a scan's points that must have a partner; else the expected motion stands and the scan stays outside the window");
     is.param("search_below", &Params::search_below).range(0, 1)
         .doc("where the overlap is less, every pose round the expected one is tried; none: never");
+    is.param("search_blind", &Params::search_blind).range(0, 1).doc("the same where there is no odometry, if it is more");
     is.param("search_reach", &Params::search_reach).unit("m").range(0.01, 20).doc("half the width of that search");
     is.param("search_turn", &Params::search_turn).unit("rad").range(0.001, 3.15).doc("half its width in heading");
     is.param("lost_reach", &Params::lost_reach).unit("m").range(0.01, 20)
@@ -114,7 +116,8 @@ struct TrackSlidingWindow : WholeStep {
     options.icp.iterations = params.iterations, options.icp.change = params.change, options.icp.ratio = params.ratio;
     options.icp.hold = params.hold;
     options.every = params.every, options.turn = params.turn, options.least_overlap = params.least_overlap;
-    options.search_below = params.search_below, options.patience = params.patience;
+    options.search_below = params.search_below, options.search_blind = params.search_blind;
+    options.patience = params.patience;
     return options;
   }
 };

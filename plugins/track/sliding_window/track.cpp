@@ -48,7 +48,7 @@ class Tracker {
       iterations += other.iterations;
       if (group_.score(scan, other.T, start, known) > group_.score(scan, found.T, start, known)) found = other;
     };
-    if (options_.search_below && found.overlap < *options_.search_below) {
+    if (options_.search_below && found.overlap < (known ? *options_.search_below : std::max(*options_.search_below, options_.search_blind))) {
       ++result_.searched;
       search(Breadth::near);
       if (found.overlap < options_.least_overlap) search(Breadth::all_headings);
