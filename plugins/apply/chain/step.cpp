@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "chain.hpp"
 #include "plumb/data/registration.hpp"
 #include "plumb/plugin/module.hpp"
@@ -59,16 +61,21 @@ struct ApplyChain : WholeStep {
  private:
   static Metrics metrics_of(const std::vector<Registration>& registrations) {
     double iterations = 0, mae = 0, overlap = 0;
+    std::vector<float> distances;
     for (const Registration& r : registrations) {
       iterations += r.iterations;
       mae += static_cast<double>(r.mae);
       overlap += static_cast<double>(r.overlap);
+      distances.push_back(r.mae);
     }
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    if (!distances.empty()) std::nth_element(distances.begin(), middle, distances.end());
     const double n = std::max<double>(1, static_cast<double>(registrations.size()));
     return Metrics()
         .add("registrations", static_cast<double>(registrations.size()), "")
         .add("iterations", iterations / n, "")
         .add("mae", mae / n, "m")
+        .add("mae_median", distances.empty() ? 0 : static_cast<double>(*middle), "m")
         .add("overlap", overlap / n, "");
   }
 };
