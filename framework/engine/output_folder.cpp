@@ -1,7 +1,6 @@
 #include "plumb/engine/output_folder.hpp"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -55,23 +54,8 @@ void write_file(const fs::path& file, const std::string& bytes) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal()) {
-  if (folder_.filename().empty()) folder_ = folder_.parent_path();
-  std::error_code error;
-  if (fs::exists(folder_, error)) {
-    if (!fs::is_directory(folder_)) throw Error(folder_.string() + ": is a file, not a folder; give another with -o");
-    refuse_foreign_files(folder_);
-  }
-  fs::create_directories(folder_.parent_path(), error);
-  const fs::path partial = folder_.string() + ".partial-" + std::to_string(getpid());
-  if (!error) fs::create_directory(partial, error);
-  if (error) throw Error(folder_.string() + ": cannot be written (" + error.message() + "); give another folder with -o");
-  partial_ = partial;
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+OutputFolder::OutputFolder(const fs::path& folder) : staged_(folder, "give another folder with -o") {
+  if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());
 }
 
 void OutputFolder::fill(const Plan& plan, const RunResult& result) {
@@ -79,25 +63,31 @@ void OutputFolder::fill(const Plan& plan, const RunResult& result) {
   std::vector<std::string> files;
   for (const MadeDocument& made : result.documents) {
     const std::string& name = made.document->name;
-    if (name.empty() || name == lock_name || name != fs::path(name).filename())
-      throw Error("step '" + made.path + "': '" + name + "' is no name for a file in the output folder; choose another");
+    if (const std::string fault = fault_of_file_name(name); !fault.empty())
+      throw Error("step '" + made.path + "': '" + name + "' " + fault);
     const auto [at, is_new] = maker.try_emplace(name, made.path);
     if (!is_new)
       throw Error("steps '" + at->second + "' and '" + made.path + "' both write '" + name + "'; give one another name");
-    write_file(partial_ / name, made.document->bytes);
+    write_file(staged_.staging() / name, made.document->bytes);
     files.push_back(name);
   }
-  write_file(partial_ / lock_name, lock_text(plan, files));
-  if (fs::exists(folder_)) {
-    refuse_foreign_files(folder_);  // it may have changed meanwhile
-    const fs::path old = folder_.string() + ".old-" + std::to_string(getpid());
-    fs::rename(folder_, old);
-    fs::rename(partial_, folder_);
-    fs::remove_all(old);
-  } else {
-    fs::rename(partial_, folder_);
+  write_file(staged_.staging() / lock_name, lock_text(plan, files));
+  try {
+    if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());  // it may have changed meanwhile
+  } catch (const Error& e) {
+    const fs::path made = staged_.staging();
+    staged_.leave();
+    throw Error(std::string(e.what()) + "; what this run made is in " + made.string());
   }
-  partial_.clear();
+  staged_.finish();
+}
+
+std::string fault_of_file_name(const std::string& name) {
+  const bool plain = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (name == lock_name) return "is what the run itself writes; choose another name";
+  if (name.empty() || name == "." || name == ".." || name != fs::path(name).filename() || name.size() > 200 || !plain)
+    return "is no name for a file in the output folder (no slashes, no control characters, 200 bytes at most); choose another";
+  return "";
 }
 
 std::string lock_text(const Plan& plan, const std::vector<std::string>& files) {

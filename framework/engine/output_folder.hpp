@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "plumb/data/io/staged_folder.hpp"
 #include "plumb/engine/runner.hpp"
 
 namespace plumb {
@@ -17,16 +18,17 @@ class OutputFolder {
  public:
   /// Makes sure, before anything runs, that the folder can be written. Throws Error with the reason and the cure.
   explicit OutputFolder(const std::filesystem::path& folder);
-  ~OutputFolder();  ///< removes what was half written
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Writes the documents and run.lock.yaml, then puts the folder into its place.
+  /// Writes the documents and run.lock.yaml, then puts the folder into its place. Throws Error: a name that is none or is given twice; a disk that is full;
+  /// files of others that came into the folder meanwhile: then what was made stays beside it, and the sentence says where.
   void fill(const Plan& plan, const RunResult& result);
 
  private:
-  std::filesystem::path folder_, partial_;
+  io::StagedFolder staged_;
 };
+
+/// What is wrong with a name of a file in the output folder, as the end of a sentence; empty if nothing is.
+std::string fault_of_file_name(const std::string& name);
 
 /// What run.lock.yaml holds: version, files, each step's version, the resolved pipeline. The same run gives the same text.
 std::string lock_text(const Plan& plan, const std::vector<std::string>& files);

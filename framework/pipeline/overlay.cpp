@@ -219,7 +219,7 @@ void apply_set(Node& pipeline, const std::string& option, Diagnostics& diagnosti
   const Origin origin{"--set " + option, 0, 0};
   const auto equals = option.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == option.size())
-    return diagnostics.add(origin, "expected NAME=VALUE.", "As in --set voxel=0.2m.");
+    return diagnostics.add(origin, "expected NAME=VALUE.", "As in --set leaf=0.2m.");
   Node value;
   value.kind = Node::Kind::scalar;
   value.origin = origin;

@@ -84,12 +84,13 @@ std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
 
 double ComparedNumber::mean(std::size_t variant) const {
   const auto& v = values[variant];
+  if (v.empty()) return std::numeric_limits<double>::quiet_NaN();
   return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
 
 Less ComparedNumber::less_than(std::size_t variant) const {
   const double other = mean(variant);
-  if (other == 0) return {std::numeric_limits<double>::quiet_NaN(), {}};
+  if (other == 0 || std::isnan(other)) return {std::numeric_limits<double>::quiet_NaN(), {}};
   const double n = static_cast<double>(inputs.size());
   const double difference = other - mean(0);
   Less less{100 * difference / other, {}};
@@ -124,12 +125,15 @@ Comparison compare(std::vector<std::string> variants, std::vector<std::string> i
     const auto& cell = cells[row.name];
     ComparedNumber number{
         row.name, row.unit, {}, std::vector<std::vector<double>>(comparison.variants.size())};
+    // Variants that never give it do not keep the others from being compared.
+    std::vector<std::size_t> giving;
+    for (std::size_t v = 0; v < cell.size(); ++v)
+      if (std::ranges::any_of(cell[v], [](const auto& value) { return value.has_value(); })) giving.push_back(v);
+    if (giving.size() < 2 || giving.front() != 0) continue;
     for (std::size_t k = 0; k < comparison.inputs.size(); ++k) {
-      if (!std::all_of(cell.begin(), cell.end(),
-                       [&](const auto& of_variant) { return of_variant[k].has_value(); }))
-        continue;
+      if (!std::ranges::all_of(giving, [&](std::size_t v) { return cell[v][k].has_value(); })) continue;
       number.inputs.push_back(k);
-      for (std::size_t v = 0; v < cell.size(); ++v) number.values[v].push_back(*cell[v][k]);
+      for (const std::size_t v : giving) number.values[v].push_back(*cell[v][k]);
     }
     if (!number.inputs.empty()) comparison.numbers.push_back(std::move(number));
   }

@@ -35,16 +35,16 @@ struct Less {
 struct ComparedNumber {
   std::string name, unit;
   std::vector<std::size_t> inputs;  ///< those where every variant gives the number, ascending
-  std::vector<std::vector<double>> values;  ///< by variant, then as `inputs`
+  std::vector<std::vector<double>> values;  ///< by variant, then as `inputs`; none of a variant that never gives it
 
-  double mean(std::size_t variant) const;
+  double mean(std::size_t variant) const;  ///< NaN for none
   Less less_than(std::size_t variant) const;
 };
 
 struct Comparison {
   std::vector<std::string> variants,
       inputs;  ///< names; the first variant is what the others are held against
-  std::vector<ComparedNumber> numbers;  ///< those that every variant gives on at least one input
+  std::vector<ComparedNumber> numbers;  ///< those that the first variant and another give on at least one input
 };
 
 /// `figures`: by variant, then input. Rows keep the order of the first run that has them.

@@ -113,7 +113,17 @@ TEST(Comparison, OfVariantsThatDifferByTheSameEverywhereIsCertain) {
   EXPECT_NEAR(*made.numbers[0].less_than(1).interval, 0, 1e-9);
 }
 
-TEST(Comparison, KeepsOnlyWhatAllVariantsGiveAndSaysOnHowManyInputs) {
+TEST(Comparison, LeavesADashForAVariantThatNeverGivesTheNumber) {
+  const std::vector<Number> both{{"ate", 1, "m"}, {"iterations", 5, ""}}, more{{"ate", 2, "m"}, {"iterations", 10, ""}};
+  const auto made = compare({"ours", "theirs", "peer"}, {"a", "b"}, {{both, both}, {more, more}, {ate(4), ate(4)}});
+  ASSERT_EQ(made.numbers.size(), 2u);
+  EXPECT_NEAR(made.numbers[1].less_than(1).percent, 50, 1e-9);
+  EXPECT_TRUE(std::isnan(made.numbers[1].mean(2)));
+  EXPECT_THAT(comparison_table(made), HasSubstr("     -     50.0 % +- 0.0               -\n"));
+  EXPECT_FALSE(nlohmann::json::parse(comparison_json(made))["numbers"][1]["variants"].contains("peer"));
+}
+
+TEST(Comparison, KeepsOnlyWhatVariantsGiveOnTheSameInputsAndSaysOnHowMany) {
   const std::vector<Number> both{{"ate", 1, "m"}, {"iterations", 5, ""}};
   const auto made = compare({"ours", "theirs"}, {"a", "b"}, {{both, {}}, {ate(2), ate(8)}});
   ASSERT_EQ(made.numbers.size(), 1u);

@@ -25,7 +25,7 @@ std::vector<std::string> row_of(const Comparison& comparison, const ComparedNumb
     row[0] += " (" + std::to_string(number.inputs.size()) + " of " +
               std::to_string(comparison.inputs.size()) + " inputs)";
   for (std::size_t v = 0; v < comparison.variants.size(); ++v)
-    row.push_back(short_number(number.mean(v)));
+    row.push_back(number.values[v].empty() ? "-" : short_number(number.mean(v)));
   for (std::size_t v = 1; v < comparison.variants.size(); ++v)
     row.push_back(percent(number.less_than(v)));
   return row;
@@ -39,6 +39,7 @@ std::string comparison_json(const Comparison& comparison) {
     nlohmann::ordered_json json{{"name", number.name}, {"unit", number.unit}};
     for (const std::size_t k : number.inputs) json["inputs"].push_back(comparison.inputs[k]);
     for (std::size_t v = 0; v < comparison.variants.size(); ++v) {
+      if (number.values[v].empty()) continue;
       nlohmann::ordered_json of{{"values", number.values[v]}, {"mean", number.mean(v)}};
       if (v > 0) {
         const Less less = number.less_than(v);

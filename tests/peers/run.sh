@@ -11,6 +11,7 @@
 #   --judge FILE    the judge, by default ../shared/tools/judge.py (needs numpy and scipy)
 #   --data DIR      default ../shared/data/laser2d
 #   --output DIR    default build/peers
+#   --beside        leave icp-slam.tum and rbpf-slam.tum in a SIMULATED_FOLDER too, for plumb compare --variant rbpf-slam=pipelines/judge2d.yaml
 set -euo pipefail
 
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -18,7 +19,7 @@ root="$(dirname "$(dirname "$here")")"
 judge="$root/../shared/tools/judge.py"
 data="$root/../shared/data/laser2d"
 output="$root/build/peers"
-first="" plumb="" only="odometry,icp-slam,rbpf-slam,plumb" install=""
+first="" plumb="" only="odometry,icp-slam,rbpf-slam,plumb" install="" beside=""
 inputs=()
 
 refuse() {
@@ -29,10 +30,11 @@ refuse() {
 while [[ $# -gt 0 ]]; do
   case "$1" in
     --install) install=yes; shift; continue ;;
+    --beside) beside=yes; shift; continue ;;
     --first | --only | --plumb | --judge | --data | --output)
       [[ $# -ge 2 ]] || refuse "$1 takes a value"
       printf -v "${1#--}" '%s' "$2"; shift 2 ;;
-    -h | --help) sed -n '2,14s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -h | --help) sed -n '2,15s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     -*) refuse "unknown option $1; --help lists them" ;;
     *) inputs+=("$(realpath -m "$1")"); shift ;;
   esac
@@ -109,12 +111,14 @@ while [[ $# -gt 0 ]]; do
     times="$(timed icp-slam.txt icp-slam "$here/icp-slam.ini" log.rawlog)"
     "$here/trajectory.py" icp-slam scans.txt icp-slam >icp-slam.tum
     report "$name" icp-slam "$times" icp-slam.tum "$truth"
+    [[ -z "$beside" || ! -d "$truth" ]] || cp icp-slam.tum "$truth/"
   fi
   if wanted rbpf-slam; then
     times="$(timed rbpf-slam.txt rbpf-slam "$here/rbpf-slam.ini" log.rawlog)"
     "$here/trajectory.py" rbpf-path scans.txt rbpf-slam rbpf-slam.txt >rbpf-slam.tum
     "$here/trajectory.py" rbpf-online scans.txt rbpf-slam >rbpf-slam-online.tum
     report "$name" "rbpf-slam, best path" "$times" rbpf-slam.tum "$truth"
+    [[ -z "$beside" || ! -d "$truth" ]] || cp rbpf-slam.tum "$truth/"
     report "$name" "rbpf-slam, online" "$times" rbpf-slam-online.tum "$truth"
   fi
   if [[ -n "$plumb" ]] && wanted plumb; then

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "pipeline_options.hpp"
+#include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/graph.hpp"
 #include "plumb/pipeline/table.hpp"
 
@@ -17,6 +18,7 @@ void add_check(CLI::App& app) {
   command->callback([options] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    preflight(plan, steps);
     std::cout << passes_table(plan);
     std::cout << options->file.string() << ": good, " << plan.steps.size() << " steps\n";
   });

@@ -5,9 +5,12 @@
 #include <set>
 
 #include "console.hpp"
+#include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/output_folder.hpp"
+#include "plumb/engine/preflight.hpp"
+#include "plumb/pipeline/overlay.hpp"
 #include "plumb/report/comparison.hpp"
 
 namespace plumb::command {
@@ -32,11 +35,18 @@ struct Run {
 
 struct Variant {
   std::string name;
+  fs::path pipeline;
   std::vector<fs::path> presets;
 };
 
+/// A file that extends nothing is a pipeline of its own, any other is laid over the one that is compared. One that cannot be read is told later.
+bool stands_alone(const fs::path& file, const fs::path& pipeline) {
+  pipeline::Diagnostics ignored;
+  return pipeline::read_chain(file, pipeline, ignored).links.size() == 1;
+}
+
 std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
-  std::vector<Variant> variants{{pipeline.name, {}}};
+  std::vector<Variant> variants{{pipeline.name, options.pipeline, {}}};
   for (const std::string& option : options.variants) {
     const auto equals = option.find('=');
     const std::string name = option.substr(0, equals);
@@ -45,7 +55,9 @@ std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
       throw Error("--variant " + option + ": there is a '" + name + "' already" +
                   (name == pipeline.name ? ", the pipeline as it is" : "") +
                   "; give each variant a name of its own");
-    variants.push_back({name, {option.substr(equals + 1)}});
+    const fs::path file = option.substr(equals + 1);
+    if (stands_alone(file, options.pipeline)) variants.push_back({name, file, {}});
+    else variants.push_back({name, options.pipeline, {file}});
   }
   return variants;
 }
@@ -65,9 +77,9 @@ std::vector<std::string> names_of(const std::vector<fs::path>& inputs) {
   return names;
 }
 
-/// What an input sets: itself, or the log in it, and the truth and the plan that lie beside where
-/// the pipeline asks for them.
-std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline) {
+/// What an input sets: itself, or the log in it; and what lies beside that the pipeline asks for: the truth, the plan, and as `estimate` what another
+/// program of the variant's name made of it, NAME.tum.
+std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline, const std::string& variant) {
   const auto declares = [&](const char* name) {
     return std::any_of(pipeline.settings.begin(), pipeline.settings.end(),
                        [&](const auto& s) { return s.name == name; });
@@ -82,7 +94,7 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline) {
   if (!fs::is_directory(input)) return {"input=" + input.string()};
   const auto log = input / "log.clf";
   std::vector<std::string> sets{"input=" + (fs::exists(log) ? log : input).string()};
-  for (const auto& [name, file] : {std::pair{"truth", "truth.tum"}, {"plan", "plan.txt"}})
+  for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"}, {"plan", "plan.txt"}, {"estimate", variant + ".tum"}})
     if (declares(name) && fs::exists(input / file))
       sets.push_back(name + ("=" + (input / file).string()));
   return sets;
@@ -110,13 +122,15 @@ void compare(const Options& options) {
   for (std::size_t v = 0; v < variants.size(); ++v) {
     variant_names.push_back(variants[v].name);
     for (std::size_t k = 0; k < options.inputs.size(); ++k) {
-      auto sets = sets_of(options.inputs[k], pipeline);
-      sets.insert(sets.end(), options.sets.begin(), options.sets.end());
-      runs[v].push_back(
-          {read_pipeline(options.pipeline, {variants[v].presets, sets, false, true}, steps),
-           nullptr});
+      const Variant& variant = variants[v];
+      const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
+      auto sets = sets_of(options.inputs[k], open, variant.name);
+      if (variant.pipeline == options.pipeline) sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+      runs[v].push_back({read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
     }
   }
+  for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
+  remove_staging_when_interrupted();
   if (!options.output.empty())
     for (std::size_t v = 0; v < variants.size(); ++v)
       for (std::size_t k = 0; k < input_names.size(); ++k)
@@ -168,7 +182,7 @@ void add_compare(CLI::App& app) {
   command->add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)")->required();
   command
       ->add_option("--variant", options->variants,
-                   "NAME=PRESET: the pipeline with that preset; may be given again")
+                   "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set does not reach it); may be given again")
       ->required()
       ->allow_extra_args(false)
       ->check(fault_of_variant);
@@ -199,6 +213,7 @@ void add_compare(CLI::App& app) {
   command
       ->add_option("--threads", options->threads,
                    "Threads to use; 0 for as many as the machine has")
+      ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");

@@ -6,10 +6,31 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <fstream>
 
+#include "plumb/data/error.hpp"
 #include "plumb/report/weakness.hpp"
 
 namespace plumb::command {
+
+namespace {
+
+constexpr const char* log_mark = "# What a run of plumb said";
+
+}  // namespace
+
+void begin_log(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::string first;
+  if (std::ifstream earlier(file); earlier) std::getline(earlier, first);
+  std::error_code error;
+  if (fs::exists(file, error) && !(fs::is_regular_file(file) && (fs::file_size(file) == 0 || first == log_mark)))
+    throw Error("--log " + file.string() + ": exists and is no log of plumb; name another file");
+  std::ofstream out(file);
+  out << log_mark << '\n';
+  out.close();
+  if (!out) throw Error("--log " + file.string() + ": cannot be written; name a file in a folder that exists");
+}
 
 Console::Console(bool quiet, const std::string& log_file)
     : quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {
@@ -19,7 +40,7 @@ Console::Console(bool quiet, const std::string& log_file)
   log_ = std::make_shared<spdlog::logger>("plumb", screen);
   log_->set_level(spdlog::level::debug);
   if (!log_file.empty()) {
-    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, true);
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, false);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
     log_->sinks().push_back(file);
   }

@@ -2,6 +2,7 @@
 /// What a run shows while it goes: a bar on a terminal, plain lines elsewhere.
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,7 +15,10 @@ class logger;
 
 namespace plumb::command {
 
-/// Writes to standard error, and every line to `log_file` too when one is given. Safe from several threads.
+/// Makes a log file, in which an earlier log of plumb is replaced. Throws Error: something else is there; it cannot be written.
+void begin_log(const std::filesystem::path& file);
+
+/// Writes to standard error, and every line to the end of `log_file` too when one is given. Safe from several threads.
 class Console final : public Observer {
  public:
   Console(bool quiet, const std::string& log_file);

@@ -29,6 +29,9 @@ void add_evaluate(CLI::App& app) {
   command->callback([options] {
     const Evaluation evaluation = evaluate(options->input);
     std::cout << (options->json ? evaluation_json(evaluation) + "\n" : evaluation_table(evaluation));
+    if (!options->json && evaluation.after.poses < 9 * evaluation.true_poses / 10)
+      std::cout << "Only " << evaluation.after.poses << " of " << evaluation.true_poses
+                << " true poses have a partner: the rows do not judge the same way, or the trajectory is of another run.\n";
     if (!evaluation.before && !options->json)
       std::cout << "No 'before': " << options->input.sequence.string() << " has no odometry.tum.\n";
     if (options->input.clouds && !evaluation.after.ghosting && !options->json)

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   plumb::command::add_compare(app);
   try {
     app.parse(argc, argv);
+    if (!std::cout.flush()) throw plumb::Error("standard output cannot be written; what was to be said is lost");
     return 0;
   } catch (const CLI::RuntimeError& e) {
     return e.get_exit_code();

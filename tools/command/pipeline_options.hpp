@@ -17,7 +17,7 @@ struct PipelineOptions {
     command.add_option("--preset", overlay.presets, "A preset to lay over the pipeline; may be given again")
         ->allow_extra_args(false);
     command.add_option("--set", overlay.sets,
-                       "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, coarse.kept.clusters=4; "
+                       "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, coarse.kept.pairs_per_cluster=30; "
                        "may be given again")
         ->allow_extra_args(false);
   }

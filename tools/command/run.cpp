@@ -1,11 +1,14 @@
 /// plumb run: checks, runs, reports.
 
+#include <algorithm>
 #include <iostream>
 
 #include "console.hpp"
+#include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/output_folder.hpp"
+#include "plumb/engine/preflight.hpp"
 #include "plumb/engine/runner.hpp"
 #include "summary.hpp"
 
@@ -20,10 +23,23 @@ struct Options {
   std::string log;
 };
 
+/// The output folder holds what the run made and nothing else.
+void require_log_elsewhere(const Options& options) {
+  if (options.log.empty()) return;
+  const auto log = std::filesystem::weakly_canonical(options.log), folder = std::filesystem::weakly_canonical(options.output);
+  const auto [end, _] = std::mismatch(folder.begin(), folder.end(), log.begin(), log.end());
+  if (end == folder.end())
+    throw Error("--log " + options.log + ": lies in the folder for the results, which holds what steps wrote alone; name a file beside it");
+}
+
 void run(const Options& options) {
   const Registry steps = installed_steps();
   const Plan plan = read_pipeline(options.pipeline.file, options.pipeline.overlay, steps);
+  preflight(plan, steps);
+  require_log_elsewhere(options);
   OutputFolder folder(options.output);
+  if (!options.log.empty()) begin_log(options.log);
+  remove_staging_when_interrupted();
   try {
     Console console(options.quiet, options.log);
     RunOptions run_options;
@@ -46,13 +62,13 @@ void add_run(CLI::App& app) {
   options->pipeline.add_to(*command);
   options->pipeline.overlay.needs_files = true;
   command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced")->required();
-  command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->capture_default_str();
+  command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->check(CLI::Range(0, 1024))->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");
   command->add_flag("--times", options->times, "Show the time that each step took");
   command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
-      "The results are the same for any number of threads. Nothing is left behind when a run fails.");
+      "The results are the same for any number of threads. Nothing is left behind when a run fails or is interrupted.");
   command->callback([options] { run(*options); });
 }
 

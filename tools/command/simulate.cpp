@@ -1,5 +1,6 @@
 /// plumb simulate: a laser-SLAM sequence with exact truth.
 
+#include "interrupt.hpp"
 #include "simulate/simulate.hpp"
 
 #include <unistd.h>
@@ -113,6 +114,7 @@ simulate::IndoorScene indoor_scene_of(const Arguments& arguments) {
 /// Makes the sequence and says so in a line.
 std::string made_by(const Arguments& arguments,
                     const std::function<void(std::size_t, std::size_t)>& progress) {
+  remove_staging_when_interrupted();
   char line[256];
   if (is_indoor(arguments)) {
     const simulate::IndoorSummary made = simulate::simulate(

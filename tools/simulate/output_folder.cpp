@@ -1,7 +1,5 @@
 #include "simulate/output_folder.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 
@@ -34,50 +32,18 @@ bool is_simulation(const fs::path& folder) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& place, const std::vector<std::string>& folders)
-    : place_(fs::absolute(place).lexically_normal()) {
-  if (!place_.has_filename()) place_ = place_.parent_path();
-  try {
-    if (fs::exists(place_)) {
-      if (!fs::is_directory(place_))
-        throw Error(place.string() + ": is a file; name a folder for the sequence");
-      if (!fs::is_empty(place_) && !is_simulation(place_))
-        throw Error(place.string() +
-                    ": holds something that the simulator did not make; name another folder");
-    }
-    const fs::path beside = place_.string() + ".partial-" + std::to_string(::getpid());
-    fs::create_directories(beside);
-    beside_ = beside;
-    for (const std::string& name : folders) fs::create_directory(beside / name);
-  } catch (const fs::filesystem_error& e) {
-    throw Error(place.string() + ": cannot be made (" + e.code().message() +
-                "); name a folder that can be written");
-  }
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!beside_.empty()) fs::remove_all(beside_, ignored);
+    : staged_(place, "name another folder with -o") {
+  if (fs::exists(staged_.place()) && !fs::is_empty(staged_.place()) && !is_simulation(staged_.place()))
+    throw Error(place.string() + ": holds something that the simulator did not make; name another folder with -o");
+  for (const std::string& name : folders) fs::create_directory(staged_.staging() / name);
 }
 
 void OutputFolder::write(const fs::path& relative, const std::string& bytes) const {
-  std::ofstream file(beside_ / relative, std::ios::binary);
+  const fs::path to = staged_.staging() / relative;
+  std::ofstream file(to, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw Error((beside_ / relative).string() + ": cannot be written; is the disk full?");
-}
-
-void OutputFolder::finish() {
-  const fs::path earlier = beside_.string() + ".earlier";
-  try {
-    const bool replace = fs::exists(place_);
-    if (replace) fs::rename(place_, earlier);
-    fs::rename(beside_, place_);
-    beside_.clear();
-    if (replace) fs::remove_all(earlier);
-  } catch (const fs::filesystem_error& e) {
-    throw Error(place_.string() + ": cannot be replaced (" + e.code().message() +
-                "); name another folder");
-  }
+  if (!file) throw Error(to.string() + ": cannot be written; is the disk full?");
 }
 
 }  // namespace plumb::simulate

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "plumb/data/io/staged_folder.hpp"
+
 namespace plumb::simulate {
 
 /// Written beside its place, then renamed. Destroyed before `finish`, it leaves nothing behind.
@@ -14,18 +16,14 @@ class OutputFolder {
   /// earlier simulation, or cannot be made.
   explicit OutputFolder(const std::filesystem::path& place,
                         const std::vector<std::string>& folders = {});
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-  ~OutputFolder();
-
   /// Writes a file; from any number of threads. Throws Error when the disk does not take it.
   void write(const std::filesystem::path& relative, const std::string& bytes) const;
 
   /// Moves the folder to its place, in which an earlier simulation is replaced.
-  void finish();
+  void finish() { staged_.finish(); }
 
  private:
-  std::filesystem::path place_, beside_;
+  io::StagedFolder staged_;
 };
 
 }  // namespace plumb::simulate

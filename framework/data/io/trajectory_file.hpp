@@ -13,7 +13,7 @@ enum class StampOrder { later, any };
 
 /// Reads `stamp tx ty tz qx qy qz qw` lines (comments with #). Quaternions are normalised.
 /// Throws Error with file:line for: cannot be opened, fewer or more than 8 numbers, text that is no number, NaN, a quaternion
-/// of norm 0, no pose at all and, unless any `order` will do, a stamp that is not later than the one before.
+/// of norm 0, a position more than 1e8 m off, no pose at all and, unless any `order` will do, a stamp that is not later than the one before.
 Trajectory read_tum(const std::filesystem::path& file, StampOrder order = StampOrder::later);
 
 /// Reads KITTI poses (12 numbers a line, a 3x4 matrix world_T_camera or world_T_frame) with the stamps of `times`, one a line.

@@ -105,6 +105,7 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
   EXPECT_THAT(said(first + "2 0 0 0 0 0 0 0\n"), AllOf(HasSubstr(":2:"), HasSubstr("norm 0")));
   EXPECT_THAT(said(first + "0.5 0 0 0 0 0 0 1\n"), AllOf(HasSubstr(":2:"), HasSubstr("not later")));
   EXPECT_THAT(said(first + first), HasSubstr("not later"));
+  EXPECT_THAT(said(first + "2 1 1e300 0 0 0 0 1\n"), AllOf(HasSubstr(":2:"), HasSubstr("farther off")));
   EXPECT_EQ(read_tum(folder.write("back.tum", first + "0.5 0 0 0 0 0 0 1\n"), StampOrder::any).stamps, (std::vector<double>{1, 0.5}));
   EXPECT_THAT(said(first + "2 0 0 0 0 0 1\n"),
               AllOf(HasSubstr(":2:"), HasSubstr("7 numbers where 8")));

@@ -13,6 +13,12 @@ namespace plumb {
 
 using namespace io;
 
+namespace {
+
+constexpr double farthest = 1e8;  // [m] from the origin; UTM coordinates stay below 1e7
+
+}  // namespace
+
 Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
   const FileBytes bytes(file);
   const std::string kind = kind_of_content(bytes.view());
@@ -30,6 +36,9 @@ Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
              "the quaternion has norm 0, so it is no rotation: correct the line (no rotation is 0 "
              "0 0 1)");
     q.coeffs() /= norm;
+    for (std::size_t k = 1; k < 4; ++k)
+      if (std::abs(v[k]) > farthest)
+        refuse(file, lines.number(), "the position " + fixed(v[k], 0) + " m is farther off than anything on Earth: correct the line");
     if (order == StampOrder::later) require_later(file, lines.number(), result.stamps, v[0]);
     result.stamps.push_back(v[0]);
     result.T_world_frame.emplace_back(q, Eigen::Vector3d(v[1], v[2], v[3]));

@@ -68,6 +68,9 @@ struct WriteMap : WholeStep {
     }
     context.count("points read for the map", points);
     context.count("points in the map", map.size());
+    if (map.size() == 0)
+      throw Error("no point is left for the map of " + std::to_string(frames) +
+                  " frames: look at the ranges, leaves and filters before it (`counted:` says where points were dropped)");
     if (too_far) context.count("points too far from the map's origin dropped", too_far);
     return {{params.name, map_bytes(map.take(), origin, params.format)}};
   }

@@ -110,3 +110,21 @@ def test_says_which_variant_failed_on_which_input(folder):
 
 def test_the_paper_s_pipeline_takes_its_unimproved_variant(folder):
     plumb("check", PIPELINES / "zhang2023.yaml", "--preset", PIPELINES / "presets/zhang2023_unimproved.yaml", "--set", "input=.").has("good")
+
+
+def test_another_program_s_trajectory_stands_beside_ours(folder):
+    plumb("simulate", "rooms", "--length", "12m", "-o", folder / "rooms")
+    # The truth itself, as if another program had found it, and the odometry.
+    for name, source in (("perfect", "truth.tum"), ("wheels", "odometry.tum")):
+        (folder / f"rooms/{name}.tum").write_bytes((folder / "rooms" / source).read_bytes())
+    judge = PIPELINES / "judge2d.yaml"
+    said = plumb("compare", PIPELINES / "zhang2023.yaml", "--variant", f"perfect={judge}", "--variant", f"wheels={judge}",
+                 "--input", folder / "rooms", "--json", "--quiet")
+    numbers = {number["name"]: number["variants"] for number in json.loads(said.out)["numbers"]}
+    ate = {name: of["mean"] for name, of in numbers["error.fine.ate"].items()}
+    assert ate["perfect"] < 1e-6 < ate["zhang2023"] < ate["wheels"], ate
+    assert numbers["map_error.mean"]["perfect"]["mean"] < numbers["map_error.mean"]["wheels"]["mean"], numbers["map_error.mean"]
+    assert "matching time" in numbers and "perfect" not in numbers["matching time"], numbers
+    (folder / "rooms/wheels.tum").unlink()
+    said = plumb("compare", PIPELINES / "zhang2023.yaml", "--variant", f"wheels={judge}", "--input", folder / "rooms", "--quiet", code=WRONG_INPUT)
+    said.has("estimate")

@@ -179,9 +179,22 @@ def test_an_earlier_run_is_replaced_but_kept_when_the_next_one_fails(folder):
 
 def test_two_steps_that_write_the_same_file(folder):
     (folder / "twice.yaml").write_text(POSES + "  again:    {use: write.trajectory, from: sequence.trajectory}\n")
-    said = plumb("run", folder / "twice.yaml", "--set", f"input={sequence('street')}", "-o", folder / "out", "--quiet", code=STEP_FAILED)
-    refused(said, "'copy'", "'again'", "trajectory.tum")
-    nothing_left(folder / "out")
+    for command in (["check", folder / "twice.yaml"], ["run", folder / "twice.yaml", "-o", folder / "out"]):
+        said = plumb(*command, "--set", f"input={sequence('street')}", code=WRONG_INPUT)
+        said.has("twice.yaml:", "'copy'", "'again'", "trajectory.tum")
+        nothing_left(folder / "out")
+
+
+def test_a_file_name_that_is_none(folder):
+    for name in ("../escape.tum", "run.lock.yaml", "a/b.tum"):
+        (folder / "named.yaml").write_text(POSES + f"  again:    {{use: write.trajectory, from: sequence.trajectory, with: {{name: {name}}}}}\n")
+        said = plumb("run", folder / "named.yaml", "--set", f"input={sequence('street')}", "-o", folder / "out", code=WRONG_INPUT)
+        said.has("named.yaml:", f"'{name}'", "choose another")
+        nothing_left(folder / "out")
+
+
+def test_parameters_that_do_not_go_together_are_refused_before_anything_runs(folder):
+    wrong_pipeline(folder, "default: 300 m, about: farther", "default: 0.1 m, about: farther", "filter.distance", "min")
 
 
 def wrong_pipeline(folder, good, bad, *words):

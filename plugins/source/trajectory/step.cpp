@@ -1,0 +1,29 @@
+#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct SourceTrajectory : WholeStep {
+  struct In {};
+  struct Out {
+    Trajectory trajectory;
+  };
+  struct Params {
+    std::filesystem::path path;
+  };
+
+  static void describe(Declaration<SourceTrajectory>& is) {
+    is.name("source.trajectory").version(1).source("[Sturm2012], the format");
+    is.summary("Reads a trajectory, as another program left it.");
+    is.output("trajectory", &Out::trajectory, "the poses in the order of the file; stamps may step back");
+    is.param("path", &Params::path).required().doc("text file with a line 'stamp tx ty tz qx qy qz qw' for each pose (TUM)");
+  }
+
+  Out run(const In&, const Params& params, Context&) const { return {read_tum(params.path, StampOrder::any)}; }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::SourceTrajectory)

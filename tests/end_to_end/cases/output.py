@@ -1,0 +1,91 @@
+"""The folder that -o names and the file that --log names: whole or not there, and nobody else's lost."""
+import os
+import signal
+import subprocess
+import time
+
+from plumb_test import CASCADE, PLUMB, STEP_FAILED, WRONG_INPUT, cascade, files_of, nothing_left, plumb, refused, sequence
+
+POSES = """plumb: 1
+name: poses
+parameters:
+  input: {type: path}
+steps:
+  sequence: {use: source.sequence,  with: {path: $input}}
+  copy:     {use: write.trajectory, from: sequence.trajectory}
+"""
+
+
+def run(folder, *options, code=0):
+    (folder / "poses.yaml").write_text(POSES)
+    return plumb("run", folder / "poses.yaml", "--set", f"input={sequence('street')}", *options, code=code)
+
+
+def test_a_link_leads_to_the_folder_and_stays_a_link(folder):
+    (folder / "disk").mkdir()
+    (folder / "out").symlink_to("disk")
+    for _ in range(2):
+        run(folder, "-o", folder / "out")
+        assert (folder / "out").is_symlink() and set(files_of(folder / "disk")) == {"trajectory.tum", "run.lock.yaml"}
+    plumb("simulate", "rooms", "--length", "12m", "-o", folder / "out", code=WRONG_INPUT)
+    assert set(files_of(folder / "disk")) == {"trajectory.tum", "run.lock.yaml"}
+
+
+def test_a_link_to_nothing_and_no_name_at_all(folder):
+    (folder / "out").symlink_to("nowhere")
+    refused(run(folder, "-o", folder / "out", code=WRONG_INPUT), "leads nowhere")
+    refused(run(folder, "-o", "", code=WRONG_INPUT), "empty", "-o")
+
+
+def test_a_log_replaces_a_log_and_nothing_else(folder):
+    (folder / "thesis.txt").write_text("mine\n")
+    refused(run(folder, "-o", folder / "out", "--log", folder / "thesis.txt", code=WRONG_INPUT), "thesis.txt", "no log of plumb")
+    assert (folder / "thesis.txt").read_text() == "mine\n" and not (folder / "out").exists()
+    refused(run(folder, "-o", folder / "out", "--log", folder / "out/run.log", code=WRONG_INPUT), "beside")
+    refused(run(folder, "-o", folder / "out", "--log", folder / "none/run.log", code=WRONG_INPUT), "folder that exists")
+    assert not (folder / "none").exists()
+    for _ in range(2):
+        run(folder, "-o", folder / "out", "--log", folder / "run.log")
+        text = (folder / "run.log").read_text()
+        assert text.count("copy") == 1 and text.startswith("# "), text
+
+
+def test_what_a_killed_run_left_is_removed_by_the_next(folder):
+    gone = subprocess.Popen(["true"])
+    gone.wait()
+    (folder / f"out.partial-{gone.pid}").mkdir()
+    (folder / f"out.partial-{os.getpid()}").mkdir()  # of a run that still goes
+    (folder / "out.partial-notes").mkdir()
+    run(folder, "-o", folder / "out")
+    assert sorted(p.name for p in folder.iterdir() if p.is_dir()) == ["out", f"out.partial-{os.getpid()}", "out.partial-notes"]
+
+
+def test_an_interrupted_run_leaves_nothing_and_keeps_what_was_there(folder):
+    run(folder, "-o", folder / "out")
+    before = files_of(folder / "out")
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", "-o", folder / "out"], stderr=subprocess.PIPE,
+                                   stdout=subprocess.DEVNULL, text=True, start_new_session=True)
+        for _ in range(400):
+            if list(folder.glob("out.partial-*")):
+                break
+            time.sleep(0.01)
+        time.sleep(0.3)
+        process.send_signal(number)
+        said = process.communicate(timeout=60)[1]
+        if process.returncode == 0:  # it was done before
+            continue
+        assert process.returncode == 128 + number and "interrupted" in said, (process.returncode, said)
+        assert files_of(folder / "out") == before
+        assert not list(folder.glob("out.*")), list(folder.glob("out.*"))
+
+
+def test_output_that_cannot_be_said_is_a_failure(folder):
+    with open("/dev/full", "w") as full:
+        assert subprocess.run([PLUMB, "list"], stdout=full, stderr=subprocess.DEVNULL).returncode != 0
+
+
+def test_no_point_left_is_said(folder):
+    said = cascade(sequence("street"), folder / "out", "--set", "ranges.frames=2", "--set", "min_range=190m", "--set", "max_range=200m", code=STEP_FAILED)
+    said.has("no point is left for the map")
+    nothing_left(folder / "out")

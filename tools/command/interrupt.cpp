@@ -1,0 +1,35 @@
+#include "interrupt.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "plumb/data/io/staged_folder.hpp"
+
+namespace plumb::command {
+
+void remove_staging_when_interrupted() {
+  static const bool once = [] {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction now;
+      sigaction(signal, nullptr, &now);
+      if (now.sa_handler != SIG_IGN) sigaddset(&signals, signal);  // nohup stays in force
+    }
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread([signals] {
+      int signal = 0;
+      sigwait(&signals, &signal);
+      io::remove_all_staging();
+      std::fputs("\nplumb: interrupted; nothing was left behind, and what was there before is as it was\n", stderr);
+      _exit(128 + signal);
+    }).detach();
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+}  // namespace plumb::command
