@@ -124,7 +124,7 @@ def test_another_program_s_trajectory_stands_beside_ours(folder):
     ate = {name: of["mean"] for name, of in numbers["error.fine.ate"].items()}
     assert ate["perfect"] < 1e-6 < ate["zhang2023"] < ate["wheels"], ate
     assert numbers["map_error.mean"]["perfect"]["mean"] < numbers["map_error.mean"]["wheels"]["mean"], numbers["map_error.mean"]
-    assert "matching time" in numbers and "perfect" not in numbers["matching time"], numbers
+    assert "matching time" not in numbers, numbers  # ours alone has it
     (folder / "rooms/wheels.tum").unlink()
     said = plumb("compare", PIPELINES / "zhang2023.yaml", "--variant", f"wheels={judge}", "--input", folder / "rooms", "--quiet", code=WRONG_INPUT)
     said.has("estimate")
