@@ -15,6 +15,9 @@ namespace plumb::test {
 /// solve.pose_graph, measure.match_rmse, stitch.sliding_window, register.icp,
 /// apply.chain, write.trajectory.
 const Registry& registry();
+/// Its two halves.
+void add_cloud_steps(Registry& registry);
+void add_graph_steps(Registry& registry);
 
 /// A folder of its own for pipelines written in a test, removed afterwards.
 class Folder {
