@@ -22,6 +22,7 @@ std::optional<std::string> text_of(const fs::path& file, const fs::path& pipelin
   if (fs::is_directory(file, error)) return refuse(foreign_folder(file));
   if (!fs::exists(file, error))
     return refuse({"there is no file '" + file.string() + "'.", cure_for_missing(file, pipeline)});
+  if (!fs::is_regular_file(file, error)) return refuse({"'" + file.string() + "' is no regular file.", "Give the path of a pipeline (YAML)."});
   std::ifstream stream(file, std::ios::binary);
   if (!stream || fs::file_size(file, error) > largest_file) {
     diagnostics.add(
@@ -41,8 +42,9 @@ bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
   const fs::path canonical = fs::weakly_canonical(file);
   if (std::find(open.begin(), open.end(), canonical) != open.end() ||
       open.size() >= longest_chain) {
-    diagnostics.add(
-        asked, "'" + file.string() + "' extends itself, or the chain is longer than 16 files.");
+    const bool loop = open.size() < longest_chain;
+    diagnostics.add(asked, "'" + file.string() + (loop ? "' extends itself." : "' is extended over more than 16 files."),
+                    loop ? "Let it extend a pipeline." : "Lay some of them together in one.");
     return false;
   }
   open.push_back(canonical);

@@ -77,6 +77,11 @@ std::vector<std::string> names_of(const std::vector<fs::path>& inputs) {
   return names;
 }
 
+/// Whether the command line sets a parameter itself.
+bool is_set(const Options& options, const std::string& name) {
+  return std::any_of(options.sets.begin(), options.sets.end(), [&](const std::string& set) { return set.starts_with(name + "="); });
+}
+
 /// What an input sets: itself, or the log in it; and what lies beside that the pipeline asks for: the truth, the plan, and as `estimate` what another
 /// program of the variant's name made of it, NAME.tum.
 std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline, const std::string& variant) {
@@ -114,6 +119,11 @@ void compare(const Options& options) {
   const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
   const auto variants = variants_of(options, pipeline);
   const auto input_names = names_of(options.inputs);
+  for (std::size_t k = 0; k < options.inputs.size(); ++k)
+    for (std::size_t n = 0; n < k; ++n)
+      if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
+        throw Error("--input " + options.inputs[k].string() + ": is given twice, which would make the confidence look better than it is; leave one out");
+  if (is_set(options, "input")) throw Error("--set input=...: --input sets it; leave one of them out");
   require_timed(options.figures.timed, pipeline);
 
   // All that can be refused is refused before the first run.
@@ -125,6 +135,7 @@ void compare(const Options& options) {
       const Variant& variant = variants[v];
       const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
       auto sets = sets_of(options.inputs[k], open, variant.name);
+      std::erase_if(sets, [&](const std::string& set) { return is_set(options, set.substr(0, set.find('='))) && !set.starts_with("input="); });
       if (variant.pipeline == options.pipeline) sets.insert(sets.end(), options.sets.begin(), options.sets.end());
       runs[v].push_back({read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
     }

@@ -20,11 +20,13 @@ void add_schema(CLI::App& app) {
       std::cout << text;
       return;
     }
+    std::error_code error;
+    std::filesystem::create_directories(*folder, error);
     const auto file = *folder / "pipeline.schema.json";
     std::ofstream out(file);
     out << text;
     out.close();
-    if (!out) throw Error(file.string() + ": cannot be written; does the folder exist?");
+    if (!out) throw Error(file.string() + ": cannot be written; give a folder that can be with -o");
   });
 }
 

@@ -63,6 +63,11 @@ struct Carmen : WholeStep {
     const ParallelLoop parallel = [&](std::size_t n, const auto& body) {
       context.parallel(n, body);
     };
+    if (std::filesystem::is_directory(params.path)) {
+      const auto inside = params.path / "log.clf";
+      io::refuse(params.path, "is a folder: give the log in it" +
+                                  (std::filesystem::exists(inside) ? ", " + inside.string() : std::string(", a .clf file")));
+    }
     const std::string text = unpacked(params.path);
     auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));
     const auto& scans = log->scans;

@@ -98,6 +98,12 @@ def test_a_wrong_command_line_exits_with_2(folder):
         assert said.err.strip() and not said.out, said
 
 
+def test_an_input_that_is_given_twice_is_refused(folder):
+    command, rooms = files(folder, seeds=[1])
+    plumb(*command, "--input", rooms[0], "--input", rooms[0], code=WRONG_INPUT).has("given twice")
+    plumb(*command, "--input", rooms[0], "--set", f"input={rooms[0]}", code=WRONG_INPUT).has("--input sets it")
+
+
 def test_says_which_variant_failed_on_which_input(folder):
     command, rooms = files(folder, seeds=[1])
     (folder / "loose.yaml").write_text(LOOSE.replace("set: {matched.reach: 0.001 m}", "set: {matched.reach: 0.3 m}\n"
