@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "plumb/data/io/file_text.hpp"
@@ -121,10 +122,17 @@ struct Odometry {
 /// All messages of a log, by kind.
 struct Sorted {
   std::array<std::vector<Message>, 5> of;
-  std::size_t second_laser = 0;
+  std::size_t second_laser = 0, no_message = 0;
   double front_laser_offset = 0;
   std::vector<Message>& operator[](Kind kind) { return of[static_cast<std::size_t>(kind)]; }
 };
+
+/// CARMEN's messages have names in capitals; blank lines and comments (#) are none and wanted.
+bool is_message(std::string_view name) {
+  if (name.empty() || name.front() == '#') return true;
+  return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c) || c == '_'; }) &&
+         std::isupper(static_cast<unsigned char>(name.front()));
+}
 
 Sorted sorted(std::string_view text) {
   Sorted result;
@@ -146,6 +154,8 @@ Sorted sorted(std::string_view text) {
       double offset = 0;
       if (io::to_number(io::next_word(line), offset) && std::isfinite(offset))
         result.front_laser_offset = offset;
+    } else if (!is_message(name)) {
+      ++result.no_message;
     }
   }
   return result;
@@ -192,7 +202,7 @@ CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
 
   CarmenLog log;
   log.odometry_lines = messages[Kind::odometry].size();
-  log.second_laser = messages.second_laser;
+  log.second_laser = messages.second_laser, log.no_message = messages.no_message;
   log.front_laser_offset = messages.front_laser_offset;
   for (const Kind other : {Kind::robot_laser, Kind::raw_laser})
     if (other != kind) log.repeated += messages[other].size();

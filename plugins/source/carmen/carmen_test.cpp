@@ -286,6 +286,12 @@ TEST_F(CarmenLogs, LeaveOutDamagedScansWithOneWarning) {
   EXPECT_THAT(log.context.warnings[0], HasSubstr("some.log:6: "));
 }
 
+TEST_F(CarmenLogs, CountLinesThatAreNoMessage) {
+  auto log = read("garbage line\n\n# a comment\nTRUEPOS 1 2 3\n" + two_scans + "180 1.0 1.0\n");
+  EXPECT_EQ(log.frames.keys.size(), 2u);
+  EXPECT_EQ(log.count("lines that are no message of CARMEN left out"), 2u);
+}
+
 TEST_F(CarmenLogs, SurviveBeingCutAnywhere) {
   for (std::size_t size = 0; size < two_scans.size(); size += 7) {
     const std::string said = refused(two_scans.substr(0, size));

@@ -127,6 +127,7 @@ struct Carmen : WholeStep {
     context.count("scans read", scans.size());
     count(context, "odometry lines beside the scans", log.odometry_lines);
     count(context, "scans of a second laser left out", log.second_laser);
+    count(context, "lines that are no message of CARMEN left out", log.no_message);
     count(context, "other messages of the same laser left out", log.repeated);
     std::size_t back = 0, unknown = 0;
     bool moves = false;
