@@ -75,9 +75,7 @@ void OutputFolder::fill(const Plan& plan, const RunResult& result) {
   try {
     if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());  // it may have changed meanwhile
   } catch (const Error& e) {
-    const fs::path made = staged_.staging();
-    staged_.leave();
-    throw Error(std::string(e.what()) + "; what this run made is in " + made.string());
+    throw Error(std::string(e.what()) + "; what this run made is in " + staged_.keep().string());
   }
   staged_.finish();
 }

@@ -19,9 +19,9 @@ struct ComparedFigures {
 
 /// The numbers of one run that are compared, named "STEP.NUMBER": those chosen; then CPU time and
 /// iterations (where counted) of the timed steps; last `time`, CPU time of all steps. Numbers
-/// that are not finite are left out. Throws Error: a glob that no number matches.
+/// that are not finite are left out. Throws Error, if it `must_match`: a glob that no number matches.
 std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
-                               const ComparedFigures& chosen);
+                               const ComparedFigures& chosen, bool must_match = true);
 
 /// How much less the first variant has than another: 100 (1 - mean of the first / mean of the
 /// other) [%].
@@ -34,7 +34,7 @@ struct Less {
 /// One number over all runs.
 struct ComparedNumber {
   std::string name, unit;
-  std::vector<std::size_t> inputs;  ///< those where every variant gives the number, ascending
+  std::vector<std::size_t> inputs;  ///< those where every variant that gives it anywhere gives it, ascending
   std::vector<std::vector<double>> values;  ///< by variant, then as `inputs`; none of a variant that never gives it
 
   double mean(std::size_t variant) const;  ///< NaN for none
@@ -44,7 +44,7 @@ struct ComparedNumber {
 struct Comparison {
   std::vector<std::string> variants,
       inputs;  ///< names; the first variant is what the others are held against
-  std::vector<ComparedNumber> numbers;  ///< those that the first variant and another give on at least one input
+  std::vector<ComparedNumber> numbers;  ///< those that the first variant and another give; on one input at least all that give them
 };
 
 /// `figures`: by variant, then input. Rows keep the order of the first run that has them.

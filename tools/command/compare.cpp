@@ -37,6 +37,7 @@ struct Variant {
   std::string name;
   fs::path pipeline;
   std::vector<fs::path> presets;
+  bool alone = false;  ///< a pipeline of its own, which --set does not reach
 };
 
 /// A file that extends nothing is a pipeline of its own, any other is laid over the one that is compared. One that cannot be read is told later.
@@ -46,7 +47,7 @@ bool stands_alone(const fs::path& file, const fs::path& pipeline) {
 }
 
 std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
-  std::vector<Variant> variants{{pipeline.name, options.pipeline, {}}};
+  std::vector<Variant> variants{{pipeline.name, options.pipeline, {}, false}};
   for (const std::string& option : options.variants) {
     const auto equals = option.find('=');
     const std::string name = option.substr(0, equals);
@@ -56,8 +57,8 @@ std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
                   (name == pipeline.name ? ", the pipeline as it is" : "") +
                   "; give each variant a name of its own");
     const fs::path file = option.substr(equals + 1);
-    if (stands_alone(file, options.pipeline)) variants.push_back({name, file, {}});
-    else variants.push_back({name, options.pipeline, {file}});
+    if (stands_alone(file, options.pipeline)) variants.push_back({name, file, {}, true});
+    else variants.push_back({name, options.pipeline, {file}, false});
   }
   return variants;
 }
@@ -135,8 +136,10 @@ void compare(const Options& options) {
       const Variant& variant = variants[v];
       const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
       auto sets = sets_of(options.inputs[k], open, variant.name);
-      std::erase_if(sets, [&](const std::string& set) { return is_set(options, set.substr(0, set.find('='))) && !set.starts_with("input="); });
-      if (variant.pipeline == options.pipeline) sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+      if (!variant.alone) {
+        std::erase_if(sets, [&](const std::string& set) { return is_set(options, set.substr(0, set.find('='))); });
+        sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+      }
       runs[v].push_back({read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
     }
   }
@@ -158,7 +161,7 @@ void compare(const Options& options) {
         run_options.threads = options.threads;
         const RunResult result = run_plan(run.plan, steps, run_options, console);
         if (run.folder) run.folder->fill(run.plan, result);
-        figures[v].push_back(figures_of(run.plan, result, options.figures));
+        figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
                        input_names[k].c_str(), result.seconds);
@@ -206,7 +209,7 @@ void add_compare(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--set", options->sets,
-                   "A parameter, a row or a step's parameter, in all runs; may be given again")
+                   "A parameter, a row or a step's parameter, in all runs of the pipeline and its presets; may be given again")
       ->allow_extra_args(false);
   command
       ->add_option("--metric", options->figures.metrics,

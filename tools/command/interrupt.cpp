@@ -24,7 +24,7 @@ void remove_staging_when_interrupted() {
       int signal = 0;
       sigwait(&signals, &signal);
       io::remove_all_staging();
-      std::fputs("\nplumb: interrupted; nothing was left behind, and what was there before is as it was\n", stderr);
+      std::fputs("\nplumb: interrupted; what was unfinished is removed\n", stderr);
       _exit(128 + signal);
     }).detach();
     return true;

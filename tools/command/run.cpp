@@ -37,9 +37,9 @@ void run(const Options& options) {
   const Plan plan = read_pipeline(options.pipeline.file, options.pipeline.overlay, steps);
   preflight(plan, steps);
   require_log_elsewhere(options);
+  remove_staging_when_interrupted();
   OutputFolder folder(options.output);
   if (!options.log.empty()) begin_log(options.log);
-  remove_staging_when_interrupted();
   try {
     Console console(options.quiet, options.log);
     RunOptions run_options;
@@ -68,7 +68,7 @@ void add_run(CLI::App& app) {
   command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
-      "The results are the same for any number of threads. Nothing is left behind when a run fails or is interrupted.");
+      "The results are the same for any number of threads. No results are left behind when a run fails or is interrupted.");
   command->callback([options] { run(*options); });
 }
 

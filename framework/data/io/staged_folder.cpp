@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <chrono>
 #include <mutex>
 #include <set>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "plumb/data/error.hpp"
@@ -15,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = ".partial-";
+constexpr const char *mark = ".partial-", *old_mark = ".old-";
 
 struct Staged {
   std::mutex mutex;
@@ -26,9 +29,9 @@ Staged& staged() {
   return all;
 }
 
-/// Folders beside the place that a process left which is no more.
-void remove_leftovers(const fs::path& place) {
-  const std::string first = place.filename().string() + mark;
+/// Folders beside the place with a mark and the number of a process that is no more.
+std::vector<fs::path> left_behind(const fs::path& place, const char* after) {
+  const std::string first = place.filename().string() + after;
   std::error_code error;
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(place.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
@@ -36,10 +39,31 @@ void remove_leftovers(const fs::path& place) {
     if (!name.starts_with(first)) continue;
     int process = 0;
     const auto [stop, fault] = std::from_chars(name.data() + first.size(), name.data() + name.size(), process);
-    if (fault == std::errc() && stop == name.data() + name.size() && process > 0 && kill(process, 0) != 0 && errno == ESRCH)
-      left.push_back(entry->path());
+    const bool whole = fault == std::errc() && stop == name.data() + name.size() && process > 0;
+    // One with our own number is of an earlier process, too.
+    if (whole && (process == getpid() || (kill(process, 0) != 0 && errno == ESRCH))) left.push_back(entry->path());
   }
-  for (const fs::path& folder : left) fs::remove_all(folder, error);
+  return left;
+}
+
+void mend(const fs::path& place) {
+  std::error_code ignored;
+  for (const fs::path& folder : left_behind(place, mark)) fs::remove_all(folder, ignored);
+  for (const fs::path& folder : left_behind(place, old_mark))
+    if (fs::exists(place, ignored)) fs::remove_all(folder, ignored);
+    else fs::rename(folder, place, ignored);
+}
+
+/// Away at once for whoever still writes to it, then file by file.
+void remove_staging(const fs::path& folder) {
+  std::error_code error;
+  const fs::path gone = folder.string() + "-gone";
+  fs::rename(folder, gone, error);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    fs::remove_all(error ? folder : gone, error);
+    if (!error) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 fs::path settled(const fs::path& given, const std::string& cure) {
@@ -62,7 +86,7 @@ StagedFolder::StagedFolder(const fs::path& place, std::string cure) : place_(set
   std::error_code error;
   fs::create_directories(place_.parent_path(), error);
   const fs::path beside = place_.string() + mark + std::to_string(getpid());
-  if (!error) remove_leftovers(place_);
+  if (!error) mend(place_);
   if (!error) fs::create_directory(beside, error);
   if (error) throw Error(place_.string() + ": cannot be written (" + error.message() + "); " + cure_);
   staging_ = beside;
@@ -72,20 +96,24 @@ StagedFolder::StagedFolder(const fs::path& place, std::string cure) : place_(set
 
 StagedFolder::~StagedFolder() {
   if (staging_.empty()) return;
+  const std::lock_guard lock(staged().mutex);
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
-  leave();
+  staged().folders.erase(staging_);
 }
 
-void StagedFolder::leave() {
+fs::path StagedFolder::keep() {
   const std::lock_guard lock(staged().mutex);
+  const fs::path kept = place_.string() + ".kept-" + std::to_string(getpid());
+  std::error_code error;
+  fs::rename(staging_, kept, error);
   staged().folders.erase(staging_);
-  staging_.clear();
+  return error ? std::exchange(staging_, {}) : (staging_.clear(), kept);
 }
 
 void StagedFolder::finish() {
   const std::lock_guard lock(staged().mutex);  // an interruption waits until the swap is done
-  const fs::path old = place_.string() + ".old-" + std::to_string(getpid());
+  const fs::path old = place_.string() + old_mark + std::to_string(getpid());
   std::error_code error;
   const bool replaces = fs::exists(place_);
   if (replaces) fs::rename(place_, old, error);
@@ -101,9 +129,8 @@ void StagedFolder::finish() {
 }
 
 void remove_all_staging() {
-  const std::lock_guard lock(staged().mutex);
-  std::error_code ignored;
-  for (const fs::path& folder : staged().folders) fs::remove_all(folder, ignored);
+  staged().mutex.lock();  // for good
+  for (const fs::path& folder : staged().folders) remove_staging(folder);
 }
 
 }  // namespace plumb::io

@@ -38,9 +38,10 @@ class Group {
 
   /// Lays a scan on by ICP from `start` on; both poses are T_world_scan. The group must not be empty.
   IcpResult lay(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const;
-  /// The best pose of the window round `start`, if any, T_world_scan. `known`: the start is of some worth and is trusted where points do not say.
-  /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both T_world_scan.
+  /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both T_world_scan. `known`: the start comes from odometry, and little
+  /// off is far off.
   double score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start, bool known) const;
+  /// The best pose of the window round `start`, if any, T_world_scan.
   std::optional<PlanarPose> search(const Cloud& scan, const PlanarPose& start, bool known, Breadth breadth) const;
 
  private:

@@ -1,5 +1,6 @@
 #include "track.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "plumb/data/error.hpp"
@@ -13,6 +14,11 @@ class Tracker {
       : scans_(scans), initial_(initial), options_(options), group_(options),
         lines_(options.icp.metric == Metric::line), poses_(scans.size()) {
     result_.poses = initial;
+    const auto moved = [&](const Pose& pose) {
+      return pose.translation != initial.T_world_segment[0].translation ||
+             pose.rotation.coeffs() != initial.T_world_segment[0].rotation.coeffs();
+    };
+    has_odometry_ = std::any_of(initial.T_world_segment.begin(), initial.T_world_segment.end(), moved);
   }
 
   Tracked run(const Edges& chain) {
@@ -32,9 +38,8 @@ class Tracker {
  private:
   /// Places scan j of the edge; whether it fits.
   bool follow(const Edge& edge) {
-    const PlanarPose expected = planar(initial_.relative(edge.i, edge.j));
-    const bool known = expected.x != 0 || expected.y != 0 || expected.yaw != 0;
-    const PlanarPose start = poses_[edge.i] * (known ? expected : motion_);
+    const bool known = has_odometry_;
+    const PlanarPose start = poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
     IcpOptions icp = options_.icp;
     if (!known) icp.hold.reset();
     const Cloud& scan = *scans_[edge.j];
@@ -57,8 +62,8 @@ class Tracker {
     ++result_.laid;
     result_.iterations += iterations, result_.mae += found.mae, result_.overlap += found.overlap;
     result_.unfit += !fits;
-    place(edge.j, fits ? found.T : poses_[edge.i] * expected);
-    motion_ = fits ? poses_[edge.i].inverse() * poses_[edge.j] : PlanarPose{};
+    place(edge.j, fits ? found.T : start);
+    motion_ = poses_[edge.i].inverse() * poses_[edge.j];
     return fits;
   }
 
@@ -102,7 +107,7 @@ class Tracker {
   const Poses& initial_;
   const TrackOptions& options_;
   Group group_;
-  bool lines_;
+  bool lines_, has_odometry_ = true;
   std::vector<PlanarPose> poses_;
   PlanarPose motion_;  ///< between the last two
   std::uint32_t unfit_in_a_row_ = 0;
@@ -115,6 +120,10 @@ Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const E
   if (initial.size() != scans.size() || chain.segments != scans.size())
     throw Error("there are " + std::to_string(scans.size()) + " scans, " + std::to_string(initial.size()) +
                 " poses and a chain of " + std::to_string(chain.segments) + "; wire those of the same scans");
+  for (std::size_t k = 0; k < chain.size(); ++k)
+    if (chain.list[k].i >= chain.list[k].j || (k > 0 && chain.list[k].i != chain.list[k - 1].j))
+      throw Error("edge " + std::to_string(k) + " joins scans " + std::to_string(chain.list[k].i) + " and " + std::to_string(chain.list[k].j) +
+                  ", which does not go on from the edge before it: wire a chain, as gate.distance makes it");
   return Tracker(scans, initial, options).run(chain);
 }
 

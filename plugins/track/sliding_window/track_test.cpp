@@ -142,6 +142,53 @@ TEST(Track, PutsScansOutsideTheChainBetweenTheirNeighbours) {
   EXPECT_EQ(drive.follow(lines()).poses.T_world_segment[11].translation, drive.odometry.T_world_segment[11].translation);
 }
 
+/// A corridor without ends: two walls as far as the laser sees.
+Cloud corridor_scan(const PlanarPose& at, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, 0.005);
+  Cloud cloud;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = M_PI * (k + 0.5) / 180, heading = at.yaw + angle;
+    const double range = ((std::sin(heading) > 0 ? 1 : -1) - at.y) / std::sin(heading) + noise(random);
+    if (range < 8) cloud.add({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0});
+  }
+  return cloud;
+}
+
+TEST(Track, StandsWhereTheOdometryStandsEvenBetweenBareWalls) {
+  Drive drive(1);
+  PlanarPose at;
+  drive.truth = {at}, drive.scans = {corridor_scan(at, 1)}, drive.odometry.T_world_segment = {in_space(at)};
+  for (std::uint32_t k = 1; k < 80; ++k) {
+    if (k < 30) at.x += 0.08;
+    drive.truth.push_back(at), drive.scans.push_back(corridor_scan(at, k)), drive.odometry.T_world_segment.push_back(in_space(at));
+    drive.chain.list.push_back({k - 1, k});
+  }
+  drive.chain.segments = 80;
+  const Tracked tracked = drive.follow(lines());
+  EXPECT_LT(drive.error(tracked.poses, 29), 0.1);
+  EXPECT_LT((tracked.poses.relative(29, 79).translation).norm(), 0.1);
+}
+
+TEST(Track, GoesOnAsBeforeWhereAScanFitsNowhereAndThereIsNoOdometry) {
+  Drive drive(40);
+  drive.without_odometry();
+  for (const std::size_t spoilt : {20, 21, 22})
+    for (std::size_t k = 0; k < drive.scans[spoilt].size(); ++k)
+      drive.scans[spoilt].x[k] = 40 + 0.2f * static_cast<float>(k), drive.scans[spoilt].y[k] = 0;
+  const Tracked tracked = drive.follow(lines());
+  EXPECT_EQ(tracked.unfit, 3u);
+  for (const std::size_t k : {20, 22, 39}) EXPECT_LT(drive.error(tracked.poses, k), 0.08) << k;
+}
+
+TEST(Track, RefusesEdgesThatAreNoChain) {
+  Drive drive(6);
+  drive.chain.list = {{0, 1}, {3, 4}};
+  EXPECT_THROW(drive.follow(lines()), Error);
+  drive.chain.list = {{0, 1}, {1, 1}};
+  EXPECT_THROW(drive.follow(lines()), Error);
+}
+
 TEST(Track, RefusesPosesOfOtherScans) {
   Drive drive(5);
   drive.odometry.T_world_segment.pop_back();

@@ -60,24 +60,42 @@ def test_what_a_killed_run_left_is_removed_by_the_next(folder):
     assert sorted(p.name for p in folder.iterdir() if p.is_dir()) == ["out", f"out.partial-{os.getpid()}", "out.partial-notes"]
 
 
+def interrupted(number, *command, beside):
+    """Starts a command, interrupts it as soon as it has begun to stage its output, and gives what it said."""
+    process = subprocess.Popen([PLUMB, *command], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, start_new_session=True)
+    for _ in range(3000):
+        if list(beside.parent.glob(beside.name + ".partial-*")):
+            break
+        time.sleep(0.01)
+    else:
+        raise AssertionError("nothing was staged in 30 s")
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 128 + number and "interrupted" in said, (process.returncode, said)
+
+
 def test_an_interrupted_run_leaves_nothing_and_keeps_what_was_there(folder):
     run(folder, "-o", folder / "out")
     before = files_of(folder / "out")
     for number in (signal.SIGINT, signal.SIGTERM):
-        process = subprocess.Popen([PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", "-o", folder / "out"], stderr=subprocess.PIPE,
-                                   stdout=subprocess.DEVNULL, text=True, start_new_session=True)
-        for _ in range(400):
-            if list(folder.glob("out.partial-*")):
-                break
-            time.sleep(0.01)
-        time.sleep(0.3)
-        process.send_signal(number)
-        said = process.communicate(timeout=60)[1]
-        if process.returncode == 0:  # it was done before
-            continue
-        assert process.returncode == 128 + number and "interrupted" in said, (process.returncode, said)
+        interrupted(number, "run", CASCADE, "--set", f"input={sequence('street')}", "-o", folder / "out", beside=folder / "out")
         assert files_of(folder / "out") == before
         assert not list(folder.glob("out.*")), list(folder.glob("out.*"))
+
+
+def test_an_interrupted_simulation_leaves_nothing(folder):
+    interrupted(signal.SIGINT, "simulate", "city_loop", "--frames", "400", "-o", folder / "city", beside=folder / "city")
+    assert not list(folder.iterdir()), list(folder.iterdir())
+
+
+def test_what_a_killed_run_had_moved_away_comes_back(folder):
+    run(folder, "-o", folder / "out")
+    before = files_of(folder / "out")
+    gone = subprocess.Popen(["true"])
+    gone.wait()
+    (folder / "out").rename(folder / f"out.old-{gone.pid}")
+    plumb("run", folder / "poses.yaml", "--set", f"input={folder}", "-o", folder / "out", code=STEP_FAILED)  # finds no sequence there
+    assert files_of(folder / "out") == before and not list(folder.glob("out.*"))
 
 
 def test_output_that_cannot_be_said_is_a_failure(folder):
