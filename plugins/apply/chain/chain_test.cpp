@@ -130,8 +130,10 @@ TEST(ApplyChain, CountsAndWarnsOnce) {
   EXPECT_EQ(context.warnings[0], "2 of 5 registrations are not accepted: the initial motion stands there, with little weight");
   EXPECT_EQ(metrics.numbers[1].value, 4);
   EXPECT_NEAR(metrics.numbers[2].value, 0.02, 1e-6);
-  EXPECT_EQ(metrics.numbers[4].name, "not_accepted");
-  EXPECT_EQ(metrics.numbers[4].value, 2);
+  EXPECT_EQ(metrics.numbers[3].name, "mae_median");
+  EXPECT_NEAR(metrics.numbers[3].value, 0.02, 1e-6);
+  EXPECT_EQ(metrics.numbers[5].name, "not_accepted");
+  EXPECT_EQ(metrics.numbers[5].value, 2);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb_test import BUILD, CASCADE, PLUMB, SOURCE, STEP_FAILED, WRONG_INPUT, nothing_left, plumb, sequence, skip, step_names
+from plumb_test import BUILD, CASCADE, PLUMB, SOURCE, WRONG_INPUT, nothing_left, plumb, sequence, skip, step_names
 
 
 def run(*command, **options):
@@ -113,7 +113,7 @@ def test_a_module_of_another_abi_is_refused_by_its_manifest(folder):
 def test_a_module_of_another_abi_behind_a_manifest_of_ours_is_refused_when_it_is_loaded(folder):
     program, environment = foreign_module(folder, "prune.kmeans", manifest_too=False)
     said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "--quiet", "-o", folder / "refused", program=program,
-                 environment=environment, code=STEP_FAILED)
+                 environment=environment, code=WRONG_INPUT)
     said.has("prune.kmeans.so", "was built for another Plumb", "plumb-sdk 0,", "build the module again")
     nothing_left(folder / "refused")
     plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("prune.kmeans.so", "another Plumb")
