@@ -29,6 +29,25 @@ Stopwatch::~Stopwatch() {
   if (outer_) outer_->inner_ += spent;
 }
 
+void ItemContext::count(std::string_view what, std::uint64_t n) {
+  if (counts_) books_.count(path_, what, n);
+  if (!said_) return;
+  const std::lock_guard lock(mutex_);
+  for (auto& [earlier, number] : said_->counts)
+    if (earlier == what) {
+      number += n;
+      return;
+    }
+  said_->counts.emplace_back(what, n);
+}
+
+void ItemContext::warn(const std::string& sentence) {
+  books_.warn(path_, sentence);
+  if (!said_) return;
+  const std::lock_guard lock(mutex_);
+  said_->warnings.push_back(sentence);
+}
+
 void ItemContext::parallel(std::size_t n, const std::function<void(std::size_t)>& body) {
   parallel_for(n, [&](std::size_t k) {
     const Stopwatch watch(books_, path_);  // bodies may run on threads that have no stopwatch of this step

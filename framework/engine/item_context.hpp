@@ -3,6 +3,7 @@
 
 #include "plumb/engine/bookkeeping.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/store/store.hpp"
 
 namespace plumb {
 
@@ -25,13 +26,12 @@ class Stopwatch {
 class ItemContext final : public Context {
  public:
   /// With `counts` false what the step counts is not heard: the item was made before, and its counts are booked.
-  /// `seed` is asked when the step does.
-  ItemContext(Bookkeeping& books, const std::string& path, std::function<std::uint64_t()> seed, bool counts = true)
-      : books_(books), path_(path), seed_(std::move(seed)), counts_(counts) {}
-  void count(std::string_view what, std::uint64_t n) override {
-    if (counts_) books_.count(path_, what, n);
-  }
-  void warn(const std::string& sentence) override { books_.warn(path_, sentence); }
+  /// `seed` is asked when the step does. What the step says is written down in `said` too, if that is given.
+  ItemContext(Bookkeeping& books, const std::string& path, std::function<std::uint64_t()> seed, bool counts = true,
+              StoredResult* said = nullptr)
+      : books_(books), path_(path), seed_(std::move(seed)), counts_(counts), said_(said) {}
+  void count(std::string_view what, std::uint64_t n) override;
+  void warn(const std::string& sentence) override;
   std::uint64_t seed() const override { return seed_(); }
   void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override;
 
@@ -40,6 +40,8 @@ class ItemContext final : public Context {
   const std::string& path_;
   std::function<std::uint64_t()> seed_;
   bool counts_;
+  std::mutex mutex_;  ///< of said_
+  StoredResult* said_;
 };
 
 }  // namespace plumb

@@ -18,6 +18,8 @@ class Runner {
       : plan_(plan),
         books_(observer),
         memo_(options.memo_bytes),
+        store_(options.store),
+        fresh_(options.fresh),
         keeping_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
@@ -32,6 +34,7 @@ class Runner {
       run_item(plan_.order[place]);
       for (std::size_t s = 0; s < runs_.size(); ++s)
         if (last[s] <= place) runs_[s].reset();
+      if (store_) store_->sync();
     }
   }
 
@@ -80,7 +83,7 @@ class Runner {
     std::shared_ptr<StepRun> run;
     try {
       run = std::make_shared<StepRun>(step, *steps_[index], values, std::move(inputs), keeping_[index],
-                                      RunState{books_, memo_});
+                                      RunState{books_, memo_, store_, fresh_});
     } catch (const Error& e) {
       throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
     }
@@ -150,6 +153,8 @@ class Runner {
   const Plan& plan_;
   Bookkeeping books_;
   Memo memo_;
+  Store* store_;
+  bool fresh_;
   std::vector<Keeping> keeping_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass

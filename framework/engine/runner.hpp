@@ -8,12 +8,15 @@
 #include "plumb/engine/bookkeeping.hpp"
 #include "plumb/pipeline/plan.hpp"
 #include "plumb/plugin/registry.hpp"
+#include "plumb/store/store.hpp"
 
 namespace plumb {
 
 struct RunOptions {
   unsigned threads = 0;                         ///< 0: as many as the machine has
   std::size_t memo_bytes = std::size_t{1} << 30; ///< how much is remembered of what may be asked for again
+  Store* store = nullptr;                       ///< where results of earlier runs are found and those of this one kept
+  bool fresh = false;                           ///< nothing is taken from the store, but all is kept
 };
 
 /// How a repeat ended.

@@ -76,6 +76,7 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
 Hash128 StepRun::call_key(std::size_t k) {
   Hasher hasher;
   hasher.bytes(&base_key_, sizeof base_key_);
+  hasher.bytes(&files_key_, sizeof files_key_);
   for (std::size_t p = 0; p < inputs_.size(); ++p) hash_input(hasher, p, k);
   return hasher.hash();
 }
@@ -114,8 +115,8 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
   return ports;
 }
 
-void StepRun::run_fold(std::vector<PortOutput>& outputs) {
-  ItemContext context(state_.books, plan_.path, [this] { return base_key_.low; });
+void StepRun::run_fold(std::vector<PortOutput>& outputs, StoredResult* said) {
+  ItemContext context(state_.books, plan_.path, [this] { return base_key_.low; }, true, said);
   const auto state = step_.begin({});
   std::size_t frames = 0;
   for (std::size_t p = 0; p < inputs_.size(); ++p)
@@ -154,15 +155,25 @@ std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
   return hasher.hash().low;
 }
 
-std::vector<PortOutput> StepRun::call(std::size_t k) {
+/// What an earlier run kept under the key; what its step said then is said again.
+std::optional<StoredResult> StepRun::stored(const Hash128& key) {
+  if (!state_.store || state_.fresh) return std::nullopt;
+  auto found = state_.store->find(key);
+  if (!found || found->outputs.size() != plan_.description->outputs.size()) return std::nullopt;
+  for (const auto& [what, n] : found->counts) state_.books.count(plan_.path, what, n);
+  for (const std::string& sentence : found->warnings) state_.books.warn(plan_.path, sentence);
+  return found;
+}
+
+std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
   std::vector<PortOutput> outputs(plan_.description->outputs.size());
   if (plan_.description->kind == StepKind::fold) {
-    run_fold(outputs);
+    run_fold(outputs, said);
     return outputs;
   }
   const auto inputs = gather(k);  // outside the try: what an earlier step says of itself needs no second name
   const bool passing = itemwise() && keeping_ == Keeping::passing;
-  ItemContext context(state_.books, plan_.path, [&] { return seed_of(inputs); }, !passing || first_asked(0, k));
+  ItemContext context(state_.books, plan_.path, [&] { return seed_of(inputs); }, !passing || first_asked(0, k), said);
   try {
     step_.run(params_.get(), inputs, outputs, context);
   } catch (const std::bad_alloc&) {

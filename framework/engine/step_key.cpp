@@ -1,5 +1,7 @@
 #include "plumb/engine/step_key.hpp"
 
+#include <sys/stat.h>
+
 #include "plumb/data/archive.hpp"
 
 namespace plumb {
@@ -21,6 +23,21 @@ Hash128 step_key(const StepDescription& step, const ParameterValues& values) {
           else if constexpr (!std::is_same_v<V, std::monostate>) hasher.bytes(&v, sizeof v);
         },
         value);
+  }
+  return hasher.hash();
+}
+
+Hash128 files_key(const StepDescription& step, const ParameterValues& values) {
+  Hasher hasher;
+  for (const auto& [name, value] : values) {
+    const ParameterDescription* parameter = step.parameter(name);
+    const auto* path = std::get_if<std::string>(&value);
+    if (!parameter || parameter->kind != ParameterKind::path || !path || path->empty()) continue;
+    hasher.text(*path);
+    struct stat at{};
+    if (stat(path->c_str(), &at) != 0) continue;
+    const std::int64_t seen[] = {at.st_size, at.st_mtim.tv_sec, at.st_mtim.tv_nsec};
+    hasher.bytes(seen, sizeof seen);
   }
   return hasher.hash();
 }

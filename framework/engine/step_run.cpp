@@ -14,6 +14,7 @@ StepRun::StepRun(const PlannedStep& plan, const Step& step, const ParameterValue
       step_(step),
       params_(step.parameters(values)),
       base_key_(step_key(*plan.description, values)),
+      files_key_(files_key(*plan.description, values)),
       inputs_(std::move(inputs)),
       keeping_(keeping),
       state_(state) {}
@@ -43,17 +44,31 @@ void StepRun::find_items() {
 void StepRun::start_whole() {
   const Stopwatch watch(state_.books, plan_.path);
   const auto& outputs = plan_.description->outputs;
-  bool plain = true;  // only values of the pipeline are remembered
-  for (const auto& output : outputs) plain &= output.emission == Emission::one;
-  const bool memo = keeping_ == Keeping::remembered && plain;
-  const Hash128 key = memo ? call_key(0) : base_key_;
+  bool single = true, plain = true;  // only values of the pipeline are remembered, and what is lazy is never stored
+  for (const auto& output : outputs) single &= output.emission == Emission::one, plain &= output.emission != Emission::lazy;
+  const bool memo = keeping_ == Keeping::remembered && single, store = state_.store && plain;
+  const Hash128 key = memo || store ? call_key(0) : base_key_;
   state_.books.observer().step_begins(plan_.path, 1);
   if (auto found = memo ? state_.memo.find(key) : std::nullopt) {
     for (AnyValue& value : *found) whole_.emplace_back().one = std::move(value);
     state_.books.add_item(plan_.path, true);
   } else {
-    whole_ = call(0);
-    state_.books.add_item(plan_.path, false);
+    if (auto kept = store ? stored(key) : std::nullopt) {
+      whole_.resize(kept->outputs.size());
+      for (std::size_t o = 0; o < whole_.size(); ++o)
+        if (outputs[o].emission == Emission::one) whole_[o].one = std::move(kept->outputs[o].at(0));
+        else whole_[o].many = std::move(kept->outputs[o]);
+      state_.books.add_item(plan_.path, true);
+    } else {
+      StoredResult result;
+      whole_ = call(0, store ? &result : nullptr);
+      state_.books.add_item(plan_.path, false);
+      if (store) {
+        for (std::size_t o = 0; o < whole_.size(); ++o)
+          result.outputs.push_back(outputs[o].emission == Emission::one ? std::vector<AnyValue>{whole_[o].one} : whole_[o].many);
+        state_.store->put(key, result);
+      }
+    }
     std::vector<AnyValue> values;
     for (const PortOutput& output : whole_) values.push_back(output.one);
     if (memo) state_.memo.store(key, std::move(values));
@@ -115,15 +130,25 @@ std::size_t StepRun::count(int output) const {
 bool StepRun::first_asked(int output, std::size_t k) { return !asked_[output][k].exchange(true); }
 
 std::vector<AnyValue> StepRun::make(std::size_t k, const Hash128& key) {
-  const bool memo = keeping_ == Keeping::remembered;
+  const bool memo = keeping_ == Keeping::remembered, store = state_.store && keeping_ != Keeping::passing;
   if (memo)
     if (auto found = state_.memo.find(key)) {
       state_.books.add_item(plan_.path, true);
       return std::move(*found);
     }
   std::vector<AnyValue> values;
-  for (PortOutput& output : call(k)) values.push_back(std::move(output.one));
-  state_.books.add_item(plan_.path, false);
+  if (auto kept = store ? stored(key) : std::nullopt) {
+    for (auto& output : kept->outputs) values.push_back(std::move(output.at(0)));
+    state_.books.add_item(plan_.path, true);
+  } else {
+    StoredResult result;
+    for (PortOutput& output : call(k, store ? &result : nullptr)) values.push_back(std::move(output.one));
+    state_.books.add_item(plan_.path, false);
+    if (store) {
+      for (const AnyValue& value : values) result.outputs.push_back({value});
+      state_.store->put(key, result);
+    }
+  }
   if (memo) state_.memo.store(key, values);
   return values;
 }

@@ -11,6 +11,7 @@
 #include "plumb/engine/memo.hpp"
 #include "plumb/pipeline/plan.hpp"
 #include "plumb/plugin/step.hpp"
+#include "plumb/store/store.hpp"
 
 namespace plumb {
 
@@ -27,6 +28,8 @@ struct Source {
 struct RunState {
   Bookkeeping& books;
   Memo& memo;
+  Store* store = nullptr;  ///< none: results live no longer than the run
+  bool fresh = false;      ///< nothing is taken from it
 };
 
 /// How long the items of a step live.
@@ -66,15 +69,16 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void check_items(std::size_t output);
   std::pair<std::size_t, std::size_t> frames_of(std::size_t k) const;
   std::string item_name(std::size_t k) const;
-  std::vector<PortOutput> call(std::size_t k);
+  std::vector<PortOutput> call(std::size_t k, StoredResult* said = nullptr);
+  std::optional<StoredResult> stored(const Hash128& key);
   std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
-  void run_fold(std::vector<PortOutput>& outputs);
+  void run_fold(std::vector<PortOutput>& outputs, StoredResult* said);
   bool first_asked(int output, std::size_t k);
 
   const PlannedStep& plan_;
   const Step& step_;
   std::shared_ptr<const void> params_;
-  Hash128 base_key_;
+  Hash128 base_key_, files_key_;
   std::vector<std::vector<Source>> inputs_;
   Keeping keeping_;
   RunState state_;

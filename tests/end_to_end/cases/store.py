@@ -1,0 +1,124 @@
+"""`--store`: what did not change is taken from an earlier run, and the bytes are the same."""
+import os
+import random
+import re
+import shutil
+import subprocess
+import time
+
+from plumb_test import CASCADE, PLUMB, WRONG_INPUT, copy_of, files_of, plumb, refused, sequence
+
+FAST = ["--set", "ranges.frames=10"]
+
+
+def run(folder, out, *options, seen=None, code=0):
+    """Runs the cascade with a store; how many results were reused and made."""
+    said = plumb("run", CASCADE, "--set", f"input={seen or sequence('street')}", *FAST, "--store", folder / "store", *options, "-o", folder / out, code=code)
+    numbers = re.search(r"store: (\d+) results reused, (\d+) made", said.err)
+    return said, *(int(n) for n in numbers.groups())
+
+
+def made_anew(folder, out):
+    plumb("run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "-o", folder / out)
+    return files_of(folder / out)
+
+
+def test_a_second_run_makes_next_to_nothing_and_the_same_bytes(folder):
+    expected = made_anew(folder, "without")
+    _, _, first = run(folder, "first")
+    _, reused, again = run(folder, "again")
+    assert files_of(folder / "first") == expected == files_of(folder / "again")
+    assert again <= 2 < first and reused > again, (first, reused, again)  # the source opens its folder; frames are not made
+    _, _, fresh = run(folder, "fresh", "--fresh")
+    assert fresh == first and files_of(folder / "fresh") == expected
+
+
+def test_killed_at_any_moment_it_goes_on_from_there(folder):
+    expected = made_anew(folder, "without")
+    begin = time.monotonic()
+    run(folder, "timed", "--fresh")
+    whole = time.monotonic() - begin
+    shutil.rmtree(folder / "store")
+    command = [PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", folder / "store", "-o", folder / "out"]
+    moments, kept = random.Random(7), {}
+    for _ in range(5):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(moments.uniform(0.05, 0.9) * whole)
+        process.kill()
+        process.wait()
+        for blob in (folder / "store").rglob("blobs/*/*"):
+            now = (blob.stat().st_ino, blob.stat().st_mtime_ns)
+            assert kept.setdefault(blob, now) == now, f"{blob} was made again"
+    assert kept
+    run(folder, "out")
+    assert files_of(folder / "out") == expected
+    assert all((blob.stat().st_ino, blob.stat().st_mtime_ns) == seen for blob, seen in kept.items())
+    assert not list(folder.glob("out.partial-*"))
+
+
+def test_one_and_two_threads_fill_and_use_a_store_alike(folder):
+    expected = made_anew(folder, "without")
+    run(folder, "one", "--threads", "1")
+    _, _, made = run(folder, "two", "--threads", "2")
+    assert made <= 2 and files_of(folder / "one") == expected == files_of(folder / "two")
+
+
+def test_after_a_change_only_what_it_touches_runs(folder):
+    _, _, first = run(folder, "first")
+    _, _, changed = run(folder, "changed", "--set", "fine.reach=1.5m,1m,0.8m,0.6m,0.5m,0.4m,0.35m,0.3m")
+    assert 2 < changed < 0.7 * first, (first, changed)
+    assert files_of(folder / "changed")["trajectory.tum"] != files_of(folder / "first")["trajectory.tum"]
+
+
+def test_an_input_that_changed_is_noticed(folder):
+    seen = copy_of("street", folder)
+    run(folder, "first", seen=seen)
+    lines = (seen / "odometry.tum").read_text().splitlines()
+    (seen / "odometry.tum").write_text("\n".join([lines[0], *(line.replace(" ", " 1", 1) for line in lines[1:])]) + "\n")
+    run(folder, "moved", seen=seen)
+    assert files_of(folder / "moved")["trajectory.tum"] != files_of(folder / "first")["trajectory.tum"]
+
+
+def test_damage_is_noticed_made_again_and_said(folder):
+    expected = made_anew(folder, "without")
+    run(folder, "first")
+    blobs = sorted(p for p in (folder / "store/blobs").rglob("*") if p.is_file())
+    assert len(blobs) > 20
+    for blob in blobs[::5]:
+        data = bytearray(blob.read_bytes())
+        data[len(data) // 2] ^= 1
+        blob.write_bytes(data)
+    said, _, _ = run(folder, "mended")
+    said.has("damaged result")
+    assert files_of(folder / "mended") == expected
+    said, _, again = run(folder, "again")
+    assert "damaged" not in said.err and again <= 2, said
+
+
+def test_a_folder_that_is_no_store_and_one_of_a_later_program(folder):
+    (folder / "thesis").mkdir()
+    (folder / "thesis/a.tex").write_text("mine")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no store")
+    (folder / "store").mkdir()
+    (folder / "store/plumb-store").write_text("plumb store 2\n")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")
+    assert not (folder / "out").exists()
+
+
+def test_a_full_disk_costs_the_keeping_alone(folder):
+    if os.geteuid() != 0 or shutil.which("mount") is None:
+        print("skipped: a small file system needs root")
+        raise SystemExit(77)
+    expected = made_anew(folder, "without")
+    small = folder / "small"
+    small.mkdir()
+    if os.system(f"mount -t tmpfs -o size=2m tmpfs {small} 2>/dev/null") != 0:
+        print("skipped: no file system can be mounted here")
+        raise SystemExit(77)
+    try:
+        command = ["run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", small / "store"]
+        plumb(*command, "-o", folder / "full").has("nothing was kept", "No space left")
+        plumb(*command, "-o", folder / "again")
+        assert files_of(folder / "full") == expected == files_of(folder / "again")
+    finally:
+        os.system(f"umount {small}")
