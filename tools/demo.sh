@@ -16,7 +16,7 @@ echo "1. A sequence: 200 scans of 32 x 1024 rays round a block of streets, and a
 echo
 echo "2. The cascade of Tang et al. 2024"
 "$plumb" run "$root/pipelines/tang2024.yaml" --preset "$root/pipelines/presets/car_64line.yaml" \
-  --set input="$folder/street" --set truth="$folder/street/truth.tum" -o "$folder/straight"
+  --set input="$folder/street" --set truth="$folder/street/truth.tum" --store none -o "$folder/straight"
 
 echo
 echo "3. Against the truth"

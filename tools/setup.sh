@@ -5,7 +5,7 @@ build="${PLUMB_BUILD:-$root/build}"
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libyaml-cpp-dev libtbb-dev nlohmann-json3-dev
   libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libceres-dev libflann-dev libnanoflann-dev
-  libbz2-dev zlib1g-dev libpng-dev)
+  libsqlite3-dev libbz2-dev zlib1g-dev libpng-dev)
 test_packages=(libpcl-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
   python3-numpy python3-scipy python3-yaml)
 

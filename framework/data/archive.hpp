@@ -1,6 +1,7 @@
 #pragma once
 /// One list of fields per value type serves hashing, storing and reading back: `fields(archive, value)`.
-/// Numbers go as they lie in memory (little endian), sequences and texts with their length first.
+/// Numbers go as they lie in memory (little endian), sequences and texts with their length first. In bytes, but not in hashes, an array of plain
+/// values begins at a multiple of 16 bytes from the start, so that it can be read where a file is mapped.
 
 #include <cstring>
 #include <map>
@@ -21,7 +22,13 @@ template <class S, int R, int C, int O, int MR, int MC>
 inline constexpr bool is_plain<Eigen::Matrix<S, R, C, O, MR, MC>> =
     R != Eigen::Dynamic && C != Eigen::Dynamic;
 
-/// Shared by both directions of output. `Sink` has put(const void*, size_t).
+/// Where arrays of plain values may begin in bytes.
+inline constexpr std::size_t array_alignment = 16;
+
+/// How many bytes lie between `at` and the next place where an array may begin.
+constexpr std::size_t array_padding(std::size_t at) { return (array_alignment - at % array_alignment) % array_alignment; }
+
+/// Shared by both directions of output. `Sink` has put(const void*, size_t), and align() if it pads before arrays.
 template <class Sink>
 class OutArchive : public Sink {
  public:
@@ -55,6 +62,8 @@ class OutArchive : public Sink {
   void put_value(const std::vector<T>& values) {
     put_value(static_cast<std::uint64_t>(values.size()));
     if constexpr (is_plain<T>) {
+      if constexpr (requires { this->align(); })
+        if (!values.empty()) this->align();
       this->put(values.data(), values.size() * sizeof(T));
     } else {
       for (const auto& value : values) put_value(value);
@@ -76,9 +85,10 @@ struct TextSink {
   void put(const void* data, std::size_t size) {
     text.append(static_cast<const char*>(data), size);
   }
+  void align() { text.append(array_padding(text.size()), '\0'); }
 };
 
-/// Reads what an OutArchive wrote. Throws Error when the bytes end too early.
+/// Reads what an OutArchive<TextSink> wrote; `bytes` are all of it, from the start. Throws Error when they end too early.
 class InArchive {
  public:
   static constexpr bool reading = true;
@@ -88,19 +98,18 @@ class InArchive {
   void operator()(T&... values) {
     (take_value(values), ...);
   }
-  bool at_end() const { return bytes_.empty(); }
+  bool at_end() const { return at_ == bytes_.size(); }
 
  private:
   const char* take(std::size_t size) {
-    if (size > bytes_.size()) throw Error("stored value ends too early");
-    const char* at = bytes_.data();
-    bytes_.remove_prefix(size);
-    return at;
+    if (size > bytes_.size() - at_) throw Error("stored value ends too early");
+    at_ += size;
+    return bytes_.data() + at_ - size;
   }
   std::size_t take_size(std::size_t element) {
     std::uint64_t n = 0;
     take_value(n);
-    if (n > bytes_.size() / element) throw Error("stored value ends too early");
+    if (n > (bytes_.size() - at_) / element) throw Error("stored value ends too early");
     return static_cast<std::size_t>(n);
   }
   template <class T>
@@ -125,8 +134,9 @@ class InArchive {
   void take_value(std::vector<T>& values) {
     if constexpr (is_plain<T>) {
       values.resize(take_size(sizeof(T)));
-      const char* at = take(values.size() * sizeof(T));
-      if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), at, values.size() * sizeof(T));
+      if (values.empty()) return;
+      take(array_padding(at_));
+      std::memcpy(static_cast<void*>(values.data()), take(values.size() * sizeof(T)), values.size() * sizeof(T));
     } else {
       values.resize(take_size(1));
       for (auto& value : values) take_value(value);
@@ -142,6 +152,7 @@ class InArchive {
     }
   }
   std::string_view bytes_;
+  std::size_t at_ = 0;
 };
 
 /// Hash of a value's content.

@@ -40,4 +40,9 @@ Hash128 Hasher::hash() const {
   return {h.high64, h.low64};
 }
 
+Hash128 hash_of(std::string_view bytes) {
+  const XXH128_hash_t h = XXH3_128bits(bytes.data(), bytes.size());
+  return {h.high64, h.low64};
+}
+
 }  // namespace plumb

@@ -31,6 +31,9 @@ class Hasher {
   std::unique_ptr<State> state_;
 };
 
+/// The hash of some bytes at once.
+Hash128 hash_of(std::string_view bytes);
+
 struct Hash128Hash {
   std::size_t operator()(const Hash128& h) const { return h.low; }
 };

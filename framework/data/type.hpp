@@ -18,9 +18,11 @@ struct Type {
   int version;
   Grain grain;
   Hash128 (*hash)(const void* value);
-  std::string (*write)(const void* value);
-  std::shared_ptr<const void> (*read)(std::string_view bytes);
-  std::size_t (*bytes)(const void* value);  ///< how much memory it holds, about
+  void (*write)(const void* value, OutArchive<TextSink>& to);
+  std::shared_ptr<const void> (*read)(InArchive& from);  ///< throws Error when the bytes end too early
+  std::size_t (*bytes)(const void* value);  ///< how much memory it holds, about, with the search trees that may be built on it
+  const char* (*fault)(const void* value);  ///< "" or what no step may give: "a pose with a number that is not finite"
+  std::shared_ptr<const void> (*empty)();   ///< a value without content: of Matches no pairs
 };
 
 /// The type of T, for every T of section 3 of the design: type_of<Segment>().

@@ -9,24 +9,35 @@ namespace {
 
 thread_local Stopwatch* running = nullptr;
 
-double thread_seconds() {
+std::int64_t thread_nanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
 }  // namespace
 
-Stopwatch::Stopwatch(Bookkeeping& books, const std::string& path)
-    : books_(books), path_(path), outer_(running), begin_(thread_seconds()) {
+Stopwatch::Stopwatch(Bookkeeping& books, const std::string& path, std::atomic<std::int64_t>* sum)
+    : books_(books), path_(path), sum_(sum), outer_(running), begin_(Bookkeeping::Clock::now()), cpu_begin_(thread_nanoseconds()) {
   running = this;
 }
 
 Stopwatch::~Stopwatch() {
-  const double spent = thread_seconds() - begin_;
-  books_.add_time(path_, spent - inner_);
+  const std::int64_t spent = thread_nanoseconds() - cpu_begin_, own = spent - inner_ + added_;
   running = outer_;
   if (outer_) outer_->inner_ += spent;
+  if (sum_) *sum_ += own;
+  else if (item_)
+    books_.item({path_, item_->name, item_->pass, item_->reused, begin_, Bookkeeping::Clock::now(), 1e-9 * static_cast<double>(own), 0, worker_number()});
+  else books_.add_time(path_, 1e-9 * static_cast<double>(own));
+}
+
+void Stopwatch::item(std::string name, int pass, bool reused) {
+  if (running) running->item_ = Item{std::move(name), pass, reused};
+}
+
+void Stopwatch::add(std::int64_t nanoseconds) {
+  if (running) running->added_ += nanoseconds;
 }
 
 void ItemContext::count(std::string_view what, std::uint64_t n) {
@@ -49,10 +60,12 @@ void ItemContext::warn(const std::string& sentence) {
 }
 
 void ItemContext::parallel(std::size_t n, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::int64_t> spent = 0;
   parallel_for(n, [&](std::size_t k) {
-    const Stopwatch watch(books_, path_);  // bodies may run on threads that have no stopwatch of this step
+    const Stopwatch watch(books_, path_, &spent);  // bodies may run on threads that have no stopwatch of this step
     body(k);
   });
+  Stopwatch::add(spent);
 }
 
 }  // namespace plumb

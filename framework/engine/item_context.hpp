@@ -1,6 +1,9 @@
 #pragma once
 /// The Context that a step sees while it makes one item.
 
+#include <atomic>
+#include <optional>
+
 #include "plumb/engine/bookkeeping.hpp"
 #include "plumb/plugin/context.hpp"
 #include "plumb/store/store.hpp"
@@ -11,16 +14,30 @@ namespace plumb {
 /// inner one is not the outer one's.
 class Stopwatch {
  public:
-  Stopwatch(Bookkeeping& books, const std::string& path);
+  /// With `sum` [ns] the time is added there and not booked.
+  Stopwatch(Bookkeeping& books, const std::string& path, std::atomic<std::int64_t>* sum = nullptr);
   ~Stopwatch();
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
+  /// Says that what the innermost stopwatch of this thread measures is an item: it is told of when that stopwatch ends.
+  static void item(std::string name, int pass, bool reused);
+  /// Adds what other stopwatches summed up to the innermost of this thread.
+  static void add(std::int64_t nanoseconds);
+
  private:
+  struct Item {
+    std::string name;
+    int pass;
+    bool reused;
+  };
   Bookkeeping& books_;
   const std::string& path_;
+  std::atomic<std::int64_t>* sum_;
   Stopwatch* outer_;
-  double begin_, inner_ = 0;
+  Bookkeeping::Clock::time_point begin_;
+  std::int64_t cpu_begin_, inner_ = 0, added_ = 0;  ///< [ns]
+  std::optional<Item> item_;
 };
 
 class ItemContext final : public Context {

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/engine/quoted.hpp"
 #include "plumb/pipeline/foreign_file.hpp"
 
 namespace plumb {
@@ -26,7 +26,7 @@ std::set<std::string> files_of_run(const fs::path& folder) {
   bool in_list = false;
   while (std::getline(in, line)) {
     if (line == "files:") in_list = true;
-    else if (in_list && line.starts_with("  - ")) files.insert(line.substr(4));
+    else if (in_list && line.starts_with("  - ")) files.insert(from_quotes(line.substr(4)).value_or(line.substr(4)));
     else in_list = false;
   }
   return files;
@@ -58,9 +58,9 @@ OutputFolder::OutputFolder(const fs::path& folder) : staged_(folder, "give anoth
   if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());
 }
 
-void OutputFolder::fill(const Plan& plan, const RunResult& result) {
+void OutputFolder::fill(RunRecord record, const RunResult& result) {
   std::map<std::string, std::string> maker;  // by file name
-  std::vector<std::string> files;
+  record.files.clear();
   for (const MadeDocument& made : result.documents) {
     const std::string& name = made.document->name;
     if (const std::string fault = fault_of_file_name(name); !fault.empty())
@@ -69,9 +69,9 @@ void OutputFolder::fill(const Plan& plan, const RunResult& result) {
     if (!is_new)
       throw Error("steps '" + at->second + "' and '" + made.path + "' both write '" + name + "'; give one another name");
     write_file(staged_.staging() / name, made.document->bytes);
-    files.push_back(name);
+    record.files.push_back(name);
   }
-  write_file(staged_.staging() / lock_name, lock_text(plan, files));
+  write_file(staged_.staging() / lock_name, lock_text(record));
   try {
     if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());  // it may have changed meanwhile
   } catch (const Error& e) {
@@ -86,19 +86,6 @@ std::string fault_of_file_name(const std::string& name) {
   if (name.empty() || name == "." || name == ".." || name != fs::path(name).filename() || name.size() > 200 || !plain)
     return "is no name for a file in the output folder (no slashes, no control characters, 200 bytes at most); choose another";
   return "";
-}
-
-std::string lock_text(const Plan& plan, const std::vector<std::string>& files) {
-  std::ostringstream out;
-  out << first_line << "\nplumb: " << PLUMB_VERSION << "\nfiles:\n";
-  for (const auto& file : files) out << "  - " << file << '\n';
-  out << "steps:\n";
-  for (const PlannedStep& step : plan.steps)
-    out << "  " << step.path << ": " << step.description->name << " version " << step.description->version << '\n';
-  out << "pipeline: |\n";
-  std::istringstream lines(plan.resolved);
-  for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
-  return out.str();
 }
 
 }  // namespace plumb

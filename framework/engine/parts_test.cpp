@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "plumb/data/error.hpp"
-#include "plumb/engine/memo.hpp"
+#include "plumb/engine/results.hpp"
 #include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/parallel.hpp"
 
@@ -27,21 +27,25 @@ TEST(Parallel, RethrowsWhatABodyThrew) {
   EXPECT_THROW(run(), Error);
 }
 
-TEST(Memo, ForgetsWhatWasNotUsedForLongest) {
-  const auto value = [](std::size_t n) { return any_value(Descriptor{std::vector<float>(n)}); };
-  Memo memo(10'000);
-  memo.store({0, 1}, {value(1000)});
-  memo.store({0, 2}, {value(1000)});
-  EXPECT_TRUE(memo.find({0, 1}));
-  memo.store({0, 3}, {value(1000)});  // 12,000 bytes: 2 goes, 1 was used later
-  EXPECT_TRUE(memo.find({0, 1}));
-  EXPECT_FALSE(memo.find({0, 2}));
-  EXPECT_TRUE(memo.find({0, 3}));
+TEST(Results, ForgetsWhatWasNotUsedForLongest) {
+  const auto value = [](std::size_t n) {
+    StoredResult result;
+    result.outputs.push_back({any_value(Descriptor{std::vector<float>(n)})});
+    return result;
+  };
+  Results results(nullptr, false, 10'000);
+  results.remember({0, 1}, value(1000));
+  results.remember({0, 2}, value(1000));
+  EXPECT_TRUE(results.find({0, 1}));
+  results.remember({0, 3}, value(1000));  // 12,000 bytes: 2 goes, 1 was used later
+  EXPECT_TRUE(results.find({0, 1}));
+  EXPECT_FALSE(results.find({0, 2}));
+  EXPECT_TRUE(results.find({0, 3}));
 }
 
 struct Folder : testing::Test {
   fs::path base = fs::temp_directory_path() / ("plumb_folder_" + std::to_string(getpid()));
-  Plan plan;
+  RunRecord record;
   Folder() { fs::create_directories(base); }
   ~Folder() override { fs::remove_all(base); }
   static RunResult with(const std::string& name, const std::string& bytes) {
@@ -56,15 +60,15 @@ struct Folder : testing::Test {
 };
 
 TEST_F(Folder, IsReplacedWhenItHoldsAnEarlierRun) {
-  OutputFolder(base / "out").fill(plan, with("a.txt", "one"));
-  OutputFolder(base / "out").fill(plan, with("b.txt", "two"));
+  OutputFolder(base / "out").fill(record, with("a.txt", "one"));
+  OutputFolder(base / "out").fill(record, with("b.txt", "two"));
   EXPECT_FALSE(fs::exists(base / "out/a.txt"));
   EXPECT_EQ(read(base / "out/b.txt"), "two");
   EXPECT_EQ(std::distance(fs::directory_iterator(base), {}), 1);  // nothing lies beside it
 }
 
 TEST_F(Folder, IsNotTouchedWhenItHoldsSomethingElse) {
-  OutputFolder(base / "out").fill(plan, with("a.txt", "one"));
+  OutputFolder(base / "out").fill(record, with("a.txt", "one"));
   std::ofstream(base / "out/mine.txt") << "mine";
   EXPECT_THROW(OutputFolder(base / "out"), Error);
   EXPECT_EQ(read(base / "out/mine.txt"), "mine");
@@ -85,8 +89,8 @@ TEST_F(Folder, RefusesAPlaceThatCannotBeWritten) {
 TEST_F(Folder, RefusesTwoFilesOfOneNameAndNamesThatLeaveTheFolder) {
   RunResult two = with("a.txt", "one");
   two.documents.push_back({"other", two.documents[0].document});
-  EXPECT_THROW(OutputFolder(base / "out").fill(plan, two), Error);
-  EXPECT_THROW(OutputFolder(base / "out").fill(plan, with("../a.txt", "")), Error);
+  EXPECT_THROW(OutputFolder(base / "out").fill(record, two), Error);
+  EXPECT_THROW(OutputFolder(base / "out").fill(record, with("../a.txt", "")), Error);
   EXPECT_TRUE(fs::is_empty(base));
 }
 

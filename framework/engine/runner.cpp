@@ -1,25 +1,35 @@
 #include "plumb/engine/runner.hpp"
 
-#include <sys/resource.h>
-
 #include <chrono>
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/lifetime.hpp"
 #include "plumb/engine/loop.hpp"
 #include "plumb/engine/parallel.hpp"
+#include "plumb/store/index.hpp"
 
 namespace plumb {
 namespace {
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20;
+
+/// What stays in memory of what the store has: little where memory is bounded, so that it does not grow with the trajectory.
+std::size_t memory_for_results(const RunOptions& options) {
+  return options.memory == 0 ? 1024 * mebibyte : std::max(options.memory / 16, 32 * mebibyte);
+}
+
+/// For the calls that run at a time; the rest is for steps on whole collections and for the program itself.
+std::size_t memory_for_calls(const RunOptions& options) { return options.memory / 2; }
 
 class Runner {
  public:
   Runner(const Plan& plan, const Registry& registry, const RunOptions& options, Observer& observer)
       : plan_(plan),
         books_(observer),
-        memo_(options.memo_bytes),
+        results_(options.store, options.fresh, memory_for_results(options)),
+        admission_(memory_for_calls(options)),
+        executor_(options.executor),
         store_(options.store),
-        fresh_(options.fresh),
         keeping_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
@@ -28,14 +38,16 @@ class Runner {
     for (const PlannedStep& step : plan.steps) steps_.push_back(&registry.step(step.description->name));
   }
 
+  /// Tells its begin and its end, and why it failed if it did.
   void run() {
-    const auto last = last_uses(plan_);
-    for (std::size_t place = 0; place < plan_.order.size(); ++place) {
-      run_item(plan_.order[place]);
-      for (std::size_t s = 0; s < runs_.size(); ++s)
-        if (last[s] <= place) runs_[s].reset();
-      if (store_) store_->sync();
+    books_.run_begins(plan_.name, plan_.steps.size());
+    try {
+      run_all();
+    } catch (const std::exception& e) {
+      books_.run_ends(e.what());
+      throw;
     }
+    books_.run_ends();
   }
 
   RunResult result() {
@@ -48,10 +60,23 @@ class Runner {
     result.warnings = books_.warnings();
     result.counts = books_.counts();
     result.times = books_.times();
+    result.peak_bytes = books_.memory().peak();
+    result.explained = std::move(explained_);
     return result;
   }
 
  private:
+  void run_all() {
+    const auto last = last_uses(plan_);
+    for (std::size_t place = 0; place < plan_.order.size(); ++place) {
+      run_item(plan_.order[place]);
+      for (std::size_t s = 0; s < runs_.size(); ++s)
+        if (last[s] <= place) runs_[s].reset();
+      if (store_) store_->sync();
+      if (admission_.bounded()) give_memory_back();
+    }
+  }
+
   void run_item(const PlannedItem& item) {
     if (item.step >= 0) run_step(item.step);
     else run_repeat(item.repeat);
@@ -83,16 +108,34 @@ class Runner {
     std::shared_ptr<StepRun> run;
     try {
       run = std::make_shared<StepRun>(step, *steps_[index], values, std::move(inputs), keeping_[index],
-                                      RunState{books_, memo_, store_, fresh_});
+                                      RunState{books_, results_, admission_, executor_, pass_});
     } catch (const Error& e) {
       throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
     }
+    const auto counted = books_.items_of(step.path);
     run->start();
     runs_[index] = run;
+    if (store_) explain(index, *run, counted);
     collect(index, *run);
     if (keeping_[index] != Keeping::passing)
-      books_.observer().step_ends(
-          step.path, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      books_.step_ends(step.path, pass_, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+
+  /// Compares what decided over the step with what did in the last run, and notes it for the next.
+  void explain(int index, StepRun& run, std::pair<std::size_t, std::size_t> counted) {
+    const PlannedStep& step = plan_.steps[index];
+    Explained one;
+    one.path = step.path;
+    one.pass = pass_;
+    one.passes = keeping_[index] == Keeping::passing;
+    const auto now = books_.items_of(step.path);
+    one.made = now.first - counted.first;
+    one.reused = now.second - counted.second;
+    const Facts facts = run.facts();
+    const Facts before = store_->index()->facts(plan_.name, step.path, one.pass);
+    one.why = before.empty() ? "this store knows no earlier run of it" : first_difference(before, facts);
+    store_->index()->set_facts(plan_.name, step.path, one.pass, facts);
+    explained_.push_back(std::move(one));
   }
 
   void collect(int index, StepRun& run) {
@@ -124,10 +167,12 @@ class Runner {
     carried.clear();
     for (const PlannedCarry& carry : repeat.carries) carried.push_back(source_of(carry.start));
     LoopJudge judge(repeat);
+    const int outer = pass_;
     for (;;) {
       const int pass = judge.passes();
       pass_of_[index] = pass;
-      books_.observer().pass_begins(repeat.path, pass, repeat.at_most);
+      pass_ = pass;
+      books_.pass_begins(repeat.path, pass, repeat.at_most);
       for (const PlannedItem& item : repeat.body) run_item(item);
       std::vector<double> values;
       for (const PlannedCondition& condition : repeat.conditions) values.push_back(condition_value(condition));
@@ -136,6 +181,7 @@ class Runner {
       carried = std::move(next);
       const auto ended = judge.after_pass(std::move(values));
       if (!ended) continue;
+      pass_ = outer;
       end_loop(repeat, judge, *ended);
       return;
     }
@@ -152,9 +198,10 @@ class Runner {
 
   const Plan& plan_;
   Bookkeeping books_;
-  Memo memo_;
+  Results results_;
+  Admission admission_;
+  Executor* executor_;
   Store* store_;
-  bool fresh_;
   std::vector<Keeping> keeping_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
@@ -162,13 +209,16 @@ class Runner {
   std::vector<std::vector<std::shared_ptr<const Metrics>>> metrics_;
   std::vector<std::vector<Source>> carried_;    ///< by repeat, then carry
   std::map<int, int> pass_of_;
+  int pass_ = -1;                               ///< of the innermost repeat that runs
   std::vector<LoopEnd> loops_;
+  std::vector<Explained> explained_;
 };
 
 }  // namespace
 
 RunResult run_plan(const Plan& plan, const Registry& registry, const RunOptions& options, Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
+  if (options.memory > 0) bound_allocator();
   RunResult result;
   with_threads(options.threads, [&] {
     Runner runner(plan, registry, options, observer);
@@ -176,9 +226,6 @@ RunResult run_plan(const Plan& plan, const Registry& registry, const RunOptions&
     result = runner.result();
   });
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  result.peak_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "plumb/engine/bookkeeping.hpp"
+#include "plumb/engine/executor.hpp"
+#include "plumb/engine/explain.hpp"
 #include "plumb/pipeline/plan.hpp"
 #include "plumb/plugin/registry.hpp"
 #include "plumb/store/store.hpp"
@@ -14,9 +16,10 @@ namespace plumb {
 
 struct RunOptions {
   unsigned threads = 0;                         ///< 0: as many as the machine has
-  std::size_t memo_bytes = std::size_t{1} << 30; ///< how much is remembered of what may be asked for again
-  Store* store = nullptr;                       ///< where results of earlier runs are found and those of this one kept
-  bool fresh = false;                           ///< nothing is taken from the store, but all is kept
+  Store* store = nullptr;        ///< where results of earlier runs are found and those of this one kept
+  bool fresh = false;            ///< nothing is taken from the store, but all is kept
+  std::size_t memory = 0;        ///< bound of resident memory [bytes], which needs a store; 0: none
+  Executor* executor = nullptr;  ///< makes calls in other processes, which needs a store; none: all in this one
 };
 
 /// How a repeat ended.
@@ -44,8 +47,9 @@ struct RunResult {
   std::vector<std::string> warnings;
   std::vector<StepCount> counts;
   std::vector<StepTime> times;
+  std::vector<Explained> explained;    ///< with a store: each step, in each pass, in the order in which they ran
   double seconds = 0;                  ///< wall clock
-  std::size_t peak_bytes = 0;          ///< of resident memory, whole process
+  std::size_t peak_bytes = 0;          ///< of resident memory without mapped files, of all its processes
 };
 
 /// Runs all steps. Throws Error that names step and item; nothing is written to disk here.

@@ -50,7 +50,7 @@ struct Engine : testing::Test {
     Overlay overlay;
     overlay.sets = std::move(sets);
     const Plan plan = read_pipeline(file, overlay, steps);
-    Observer silent;
+    Observers silent;
     RunOptions options;
     options.threads = threads;
     return run_plan(plan, steps, options, silent);
@@ -120,7 +120,7 @@ TEST_F(Engine, NamesTheStepAndTheFirstItemThatFails) {
     run(cascade, {"kept.refuse=4"}, 1);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "step 'kept' (test.keep), frame 4: will not");
+    EXPECT_STREQ(e.what(), "step 'kept' (test.keep), frame 4: will not; 2 further items of step 'merged' failed: segment 2, segment 3");
   }
 }
 

@@ -115,8 +115,7 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
   return ports;
 }
 
-void StepRun::run_fold(std::vector<PortOutput>& outputs, StoredResult* said) {
-  ItemContext context(state_.books, plan_.path, [this] { return base_key_.low; }, true, said);
+void StepRun::run_fold(std::vector<PortOutput>& outputs, Context& context) {
   const auto state = step_.begin({});
   std::size_t frames = 0;
   for (std::size_t p = 0; p < inputs_.size(); ++p)
@@ -124,16 +123,6 @@ void StepRun::run_fold(std::vector<PortOutput>& outputs, StoredResult* said) {
       frames = inputs_[p].front().run->count(inputs_[p].front().output);
   for (std::size_t n = 0; n < frames; ++n) step_.fold(state.get(), params_.get(), gather(n), context);
   step_.finish(state.get(), params_.get(), outputs, context);
-}
-
-std::string StepRun::item_name(std::size_t k) const {
-  switch (plan_.description->kind) {
-    case StepKind::frame: return ", frame " + std::to_string(k);
-    case StepKind::segment: return ", segment " + std::to_string(k);
-    case StepKind::edge:
-      return ", edge " + std::to_string(edges_->list[k].i) + "-" + std::to_string(edges_->list[k].j);
-    default: return "";
-  }
 }
 
 /// From what the call sees, by content: a copied file or another folder gives the same numbers. Collections are not looked at.
@@ -155,35 +144,58 @@ std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
   return hasher.hash().low;
 }
 
-/// What an earlier run kept under the key; what its step said then is said again.
-std::optional<StoredResult> StepRun::stored(const Hash128& key) {
-  if (!state_.store || state_.fresh) return std::nullopt;
-  auto found = state_.store->find(key);
-  if (!found || found->outputs.size() != plan_.description->outputs.size()) return std::nullopt;
-  for (const auto& [what, n] : found->counts) state_.books.count(plan_.path, what, n);
-  for (const std::string& sentence : found->warnings) state_.books.warn(plan_.path, sentence);
-  return found;
+/// Memory that a call may need [bytes], about: its inputs, and twice as much for what is made of them. Frames are as big as the biggest seen.
+std::size_t StepRun::expected_bytes(std::size_t k) {
+  std::size_t bytes = 0;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    if (inputs_[p].empty()) continue;
+    const InputDescription& input = plan_.description->inputs[p];
+    const Source& source = inputs_[p].front();
+    if (input.access == Access::item && input.type->grain != Grain::whole) bytes += source.run->size_of(source.output, k);
+    if (input.access == Access::ends)
+      bytes += source.run->size_of(source.output, edges_->list[k].i) + source.run->size_of(source.output, edges_->list[k].j);
+    if (input.access == Access::each && itemwise()) {
+      const auto [first, end] = frames_of(k);
+      for (std::size_t n = first; n < end; ++n) bytes += source.run->size_of(source.output, n);
+    }
+  }
+  return keeping_ == Keeping::passing ? bytes : 3 * bytes;
+}
+
+/// Poses and points that are no numbers are refused here, so that the step that made them is named.
+void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const {
+  const auto check = [&](const AnyValue& value, const OutputDescription& port) {
+    if (!value) return;
+    if (const char* fault = value.type->fault(value.value.get()); *fault)
+      throw NestedError(title(k) + ": its output '" + port.name + "' holds " + fault + "; the step must not give that, whatever its input");
+  };
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    check(outputs[o].one, plan_.description->outputs[o]);
+    for (const AnyValue& value : outputs[o].many) check(value, plan_.description->outputs[o]);
+  }
 }
 
 std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
   std::vector<PortOutput> outputs(plan_.description->outputs.size());
-  if (plan_.description->kind == StepKind::fold) {
-    run_fold(outputs, said);
-    return outputs;
-  }
-  const auto inputs = gather(k);  // outside the try: what an earlier step says of itself needs no second name
-  const bool passing = itemwise() && keeping_ == Keeping::passing;
-  ItemContext context(state_.books, plan_.path, [&] { return seed_of(inputs); }, !passing || first_asked(0, k), said);
+  const bool fold = plan_.description->kind == StepKind::fold;
+  const auto inputs = fold ? std::vector<PortInput>() : gather(k);  // outside the try: what an earlier step says of itself needs no second name
+  const bool passing = itemwise() && keeping_ == Keeping::passing, first = passing && first_asked(0, k);
+  // In a worker nothing is booked but what is warned: counts go home with the reply.
+  ItemContext context(state_.books, plan_.path, [&] { return fold ? base_key_.low : seed_of(inputs); }, !state_.passed && (!passing || first), said);
   try {
-    step_.run(params_.get(), inputs, outputs, context);
+    if (fold) run_fold(outputs, context);
+    else step_.run(params_.get(), inputs, outputs, context);
   } catch (const std::bad_alloc&) {
-    throw Error("step '" + plan_.path + "' (" + plan_.description->name + ")" + item_name(k) +
-                ": memory is used up; give smaller segments or a larger voxel");
+    throw NestedError(title(k) + ": memory is used up; give smaller segments or a larger voxel");
   } catch (const NestedError&) {
     throw;
   } catch (const std::exception& e) {
-    throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + ")" + item_name(k) + ": " + e.what());
+    throw NestedError(title(k) + ": " + e.what());
+  } catch (...) {
+    throw NestedError(title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
   }
+  check_outputs(outputs, k);
+  if (first && state_.passed) state_.passed(*this, 0, k, *said);
   return outputs;
 }
 

@@ -1,8 +1,7 @@
 #include "plumb/engine/step_key.hpp"
 
-#include <sys/stat.h>
-
 #include "plumb/data/archive.hpp"
+#include "plumb/data/io/file_identity.hpp"
 
 namespace plumb {
 
@@ -34,10 +33,7 @@ Hash128 files_key(const StepDescription& step, const ParameterValues& values) {
     const auto* path = std::get_if<std::string>(&value);
     if (!parameter || parameter->kind != ParameterKind::path || !path || path->empty()) continue;
     hasher.text(*path);
-    struct stat at{};
-    if (stat(path->c_str(), &at) != 0) continue;
-    const std::int64_t seen[] = {at.st_size, at.st_mtim.tv_sec, at.st_mtim.tv_nsec};
-    hasher.bytes(seen, sizeof seen);
+    io::add_identity(hasher, *path);
   }
   return hasher.hash();
 }

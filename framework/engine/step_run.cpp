@@ -1,124 +1,134 @@
-/// What a step makes in one pass, how long it is kept, and how it is fetched.
+/// A step with its inputs joined: what is common to steps on items and on whole collections.
 #include "plumb/engine/step_run.hpp"
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/item_context.hpp"
-#include "plumb/engine/parallel.hpp"
 #include "plumb/engine/step_key.hpp"
+#include "plumb/store/blob.hpp"
 
 namespace plumb {
 
-StepRun::StepRun(const PlannedStep& plan, const Step& step, const ParameterValues& values,
+StepRun::StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
                  std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state)
     : plan_(plan),
       step_(step),
-      params_(step.parameters(values)),
-      base_key_(step_key(*plan.description, values)),
-      files_key_(files_key(*plan.description, values)),
+      values_(std::move(values)),
+      params_(step.parameters(values_)),
+      base_key_(step_key(*plan.description, values_)),
+      files_key_(files_key(*plan.description, values_)),
       inputs_(std::move(inputs)),
       keeping_(keeping),
-      state_(state) {}
+      state_(std::move(state)) {}
 
 bool StepRun::itemwise() const {
   const StepKind kind = plan_.description->kind;
   return kind != StepKind::whole && kind != StepKind::fold;
 }
 
-/// An item-wise step has as many items as the item-wise inputs that it is wired to.
-void StepRun::find_items() {
-  const auto& ports = plan_.description->inputs;
-  for (std::size_t p = 0; p < ports.size(); ++p) {
-    if (inputs_[p].empty()) continue;
-    const Source& source = inputs_[p].front();
-    const Access access = ports[p].access;
-    if (access == Access::over_edges || access == Access::this_edge) {
-      edges_ = source.run->value(source.output).as<Edges>();
-      items_ = edges_->size();
-    } else if (access == Access::item && ports[p].type->grain != Grain::whole) {
-      items_ = source.run->count(source.output);
-      if (ports[p].type->grain == Grain::edge) edges_ = source.run->edges();
-    }
+bool StepRun::lazy() const {
+  for (const auto& output : plan_.description->outputs)
+    if (output.emission == Emission::lazy) return true;
+  return false;
+}
+
+std::string StepRun::item_name(std::size_t k) const {
+  switch (plan_.description->kind) {
+    case StepKind::frame: return "frame " + std::to_string(k);
+    case StepKind::segment: return "segment " + std::to_string(k);
+    case StepKind::edge: return "edge " + std::to_string(edges_->list[k].i) + "-" + std::to_string(edges_->list[k].j);
+    default: return "";
   }
 }
 
-void StepRun::start_whole() {
-  const Stopwatch watch(state_.books, plan_.path);
-  const auto& outputs = plan_.description->outputs;
-  bool single = true, plain = true;  // only values of the pipeline are remembered, and what is lazy is never stored
-  for (const auto& output : outputs) single &= output.emission == Emission::one, plain &= output.emission != Emission::lazy;
-  const bool memo = keeping_ == Keeping::remembered && single, store = state_.store && plain;
-  const Hash128 key = memo || store ? call_key(0) : base_key_;
-  state_.books.observer().step_begins(plan_.path, 1);
-  if (auto found = memo ? state_.memo.find(key) : std::nullopt) {
-    for (AnyValue& value : *found) whole_.emplace_back().one = std::move(value);
-    state_.books.add_item(plan_.path, true);
-  } else {
-    if (auto kept = store ? stored(key) : std::nullopt) {
-      whole_.resize(kept->outputs.size());
-      for (std::size_t o = 0; o < whole_.size(); ++o)
-        if (outputs[o].emission == Emission::one) whole_[o].one = std::move(kept->outputs[o].at(0));
-        else whole_[o].many = std::move(kept->outputs[o]);
-      state_.books.add_item(plan_.path, true);
-    } else {
-      StoredResult result;
-      whole_ = call(0, store ? &result : nullptr);
-      state_.books.add_item(plan_.path, false);
-      if (store) {
-        for (std::size_t o = 0; o < whole_.size(); ++o)
-          result.outputs.push_back(outputs[o].emission == Emission::one ? std::vector<AnyValue>{whole_[o].one} : whole_[o].many);
-        state_.store->put(key, result);
-      }
-    }
-    std::vector<AnyValue> values;
-    for (const PortOutput& output : whole_) values.push_back(output.one);
-    if (memo) state_.memo.store(key, std::move(values));
-  }
-  whole_keys_.resize(whole_.size());
-  for (std::size_t o = 0; o < whole_.size(); ++o) {
-    check_items(o);
-    const Type& type = *outputs[o].type;
-    if (outputs[o].emission == Emission::one) whole_keys_[o] = {type.hash(whole_[o].one.value.get())};
-    for (const AnyValue& value : whole_[o].many) whole_keys_[o].push_back(type.hash(value.value.get()));
-    for (const Hash128& lazy : whole_[o].lazy.keys) whole_keys_[o].push_back(joined_key(base_key_, lazy));
-    asked_.push_back(std::make_unique<std::atomic<bool>[]>(whole_[o].lazy.keys.size()));
-  }
-  inputs_.clear();  // lets go of what came before
-}
-
-/// Many values that belong to the items of an input must be as many.
-void StepRun::check_items(std::size_t output) {
-  const OutputDescription& port = plan_.description->outputs[output];
-  if (port.over.empty()) return;
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    if (plan_.description->inputs[p].name != port.over || inputs_[p].empty()) continue;
-    const Source& source = inputs_[p].front();
-    const std::size_t items = source.run->count(source.output);
-    const std::size_t made = whole_[output].many.size() + whole_[output].lazy.keys.size();
-    if (made != items)
-      throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" + port.name + "' has " +
-                  std::to_string(made) + " values where its input '" + port.over + "' has " + std::to_string(items) +
-                  "; the step must give one for each");
-    if (port.type->grain == Grain::edge) edges_ = source.run->edges();
-  }
+std::string StepRun::title(std::size_t k) const {
+  const std::string item = item_name(k);
+  return "step '" + plan_.path + "' (" + plan_.description->name + ")" + (item.empty() ? "" : ", " + item);
 }
 
 void StepRun::start() {
-  if (!itemwise()) return start_whole();
-  find_items();
-  if (keeping_ == Keeping::passing) {
-    asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
-    return;
+  if (itemwise()) start_items();
+  else start_whole();
+}
+
+void StepRun::join() {
+  if (itemwise()) find_items();
+  if (keeping_ == Keeping::passing) asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
+}
+
+/// What an earlier run or another process made: what its step said then is said again.
+void StepRun::say_again(const StoredResult& result) {
+  for (const auto& [what, n] : result.counts) state_.books.count(plan_.path, what, n);
+  for (const std::string& sentence : result.warnings) state_.books.warn(plan_.path, sentence);
+}
+
+StoredResult StepRun::result_of(std::vector<PortOutput>& outputs, StoredResult said) const {
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const Emission emission = plan_.description->outputs[o].emission;
+    if (emission == Emission::one) said.outputs.push_back({std::move(outputs[o].one)});
+    else said.outputs.push_back(std::move(outputs[o].many));
   }
-  state_.books.observer().step_begins(plan_.path, items_);
-  kept_.resize(items_);
-  kept_keys_.resize(items_);
-  parallel_for(items_, [this](std::size_t k) {
-    const Stopwatch watch(state_.books, plan_.path);
-    kept_keys_[k] = call_key(k);
-    kept_[k] = make(k, kept_keys_[k]);
-    state_.books.observer().item_done(plan_.path);
-  });
-  inputs_.clear();
+  return said;
+}
+
+/// Keeps a result and says who must hold it: `pin`, unless the store took it.
+Hash128 StepRun::kept(const Hash128& key, StoredResult result, SharedResult& pin) {
+  Results& results = state_.results;
+  if (results.store()) pin = results.keep(key, std::move(result), plan_.description->name);
+  else if (keeping_ == Keeping::remembered) pin = results.remember(key, std::move(result));
+  else pin = std::make_shared<const StoredResult>(std::move(result));
+  if (results.in_store(key)) pin.reset();
+  return key;
+}
+
+void StepRun::make_one(std::size_t k, Reply& reply) {
+  const Hash128 key = call_key(k);
+  StoredResult said;
+  auto outputs = call(k, &said);
+  for (const auto& [what, n] : said.counts) reply.counts.push_back({what, n});
+  for (const PortOutput& output : outputs) reply.lazy.push_back(output.lazy.keys);
+  const StoredResult result = result_of(outputs, std::move(said));
+  if (lazy()) reply.result = blob_of(key, result, plan_.description->name);
+  else if (!state_.results.store()->put(key, result, plan_.description->name))
+    throw Error(title(k) + ": its result cannot be kept in the store (" + state_.results.store()->fault() + "); make room, or name another with --store");
+}
+
+/// What a call said in another process, as if it had been made here, and that it was made.
+void StepRun::book(const Reply& reply) {
+  for (const Counted& count : reply.counts) state_.books.count(plan_.path, count.what, count.n);
+  for (const std::string& sentence : reply.warnings) state_.books.say(sentence.substr(0, sentence.find(':')), sentence);
+  double own = 0;
+  for (const Spent& spent : reply.spent)
+    if (spent.path == plan_.path) own += spent.cpu_seconds;
+    else state_.books.add_time(spent.path, spent.cpu_seconds);
+  if (reply.process) state_.books.memory().add_process(static_cast<int>(reply.process));
+  const auto end = Bookkeeping::Clock::now();
+  const auto seconds = std::chrono::duration_cast<Bookkeeping::Clock::duration>(std::chrono::duration<double>(reply.seconds));
+  state_.books.item({plan_.path, item_name(reply.item), state_.pass, false, end - seconds, end, own, static_cast<int>(reply.process), 0});
+}
+
+void StepRun::book_passed(const PassedCounts& passed) {
+  if (passed.output >= asked_.size() || passed.item >= count(static_cast<int>(passed.output)) || !first_asked(passed.output, passed.item)) return;
+  for (const Counted& count : passed.counts) state_.books.count(plan_.path, count.what, count.n);
+}
+
+bool StepRun::adopt_result(std::size_t k) {
+  const Hash128& key = itemwise() ? kept_keys_[k] : whole_key_;
+  Results& results = state_.results;
+  if (!results.store()->contains(key)) return false;
+  results.made_elsewhere(key, plan_.description->name);
+  const auto found = results.find(key);
+  if (found) say_again(*found);
+  return found != nullptr;
+}
+
+void StepRun::require_in_store() const {
+  const Results& results = state_.results;
+  bool all = true;
+  if (itemwise())
+    for (const Hash128& key : kept_keys_) all &= results.in_store(key);
+  else
+    all = results.in_store(whole_key_);
+  if (!all) throw Error("the store does not take results (" + results.store()->fault() + "), and workers need them from there; make room, or name another with --store");
 }
 
 std::size_t StepRun::count(int output) const {
@@ -126,49 +136,18 @@ std::size_t StepRun::count(int output) const {
   return whole_keys_[output].size();
 }
 
-/// What passes through is made for each that asks, but its counts are booked once.
-bool StepRun::first_asked(int output, std::size_t k) { return !asked_[output][k].exchange(true); }
-
-std::vector<AnyValue> StepRun::make(std::size_t k, const Hash128& key) {
-  const bool memo = keeping_ == Keeping::remembered, store = state_.store && keeping_ != Keeping::passing;
-  if (memo)
-    if (auto found = state_.memo.find(key)) {
-      state_.books.add_item(plan_.path, true);
-      return std::move(*found);
-    }
-  std::vector<AnyValue> values;
-  if (auto kept = store ? stored(key) : std::nullopt) {
-    for (auto& output : kept->outputs) values.push_back(std::move(output.at(0)));
-    state_.books.add_item(plan_.path, true);
-  } else {
-    StoredResult result;
-    for (PortOutput& output : call(k, store ? &result : nullptr)) values.push_back(std::move(output.one));
-    state_.books.add_item(plan_.path, false);
-    if (store) {
-      for (const AnyValue& value : values) result.outputs.push_back({value});
-      state_.store->put(key, result);
-    }
-  }
-  if (memo) state_.memo.store(key, values);
-  return values;
-}
-
 AnyValue StepRun::value(int output, std::size_t k) {
-  if (itemwise()) {
-    if (keeping_ != Keeping::passing) return kept_[k][output];
-    const Stopwatch watch(state_.books, plan_.path);
-    return make(k, call_key(k))[output];
-  }
-  PortOutput& made = whole_[output];
-  switch (plan_.description->outputs[output].emission) {
-    case Emission::one: return made.one;
-    case Emission::many: return made.many[k];
-    case Emission::lazy: break;
-  }
+  if (itemwise()) return keeping_ == Keeping::passing ? pass(k)[output] : fetch(k)->outputs[output].at(0);
+  if (plan_.description->outputs[output].emission != Emission::lazy) return whole()->outputs[output].at(k);
   const Stopwatch watch(state_.books, plan_.path);
-  ItemContext context(state_.books, plan_.path, [&] { return whole_keys_[output][k].low; }, first_asked(output, k));
+  const bool first = first_asked(output, k);
+  StoredResult said;
+  ItemContext context(state_.books, plan_.path, [&] { return whole_keys_[output][k].low; }, first && !state_.passed, &said);
   try {
-    return made.lazy.open(k, context);
+    AnyValue value = lazy_[output].open(k, context);
+    passed_bytes_ = std::max(passed_bytes_.load(), value.type->bytes(value.value.get()));
+    if (first && state_.passed) state_.passed(*this, output, k, said);
+    return value;
   } catch (const std::exception& e) {
     throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + "): " + e.what());
   }
@@ -177,6 +156,13 @@ AnyValue StepRun::value(int output, std::size_t k) {
 Hash128 StepRun::key(int output, std::size_t k) {
   if (!itemwise()) return whole_keys_[output][k];
   return joined_key(keeping_ == Keeping::passing ? call_key(k) : kept_keys_[k], {0, static_cast<std::uint64_t>(output)});
+}
+
+std::size_t StepRun::size_of(int output, std::size_t k) {
+  if (itemwise()) return keeping_ == Keeping::passing ? expected_bytes(k) : state_.results.size_of(kept_keys_[k]);
+  if (plan_.description->outputs[output].emission == Emission::one) return state_.results.size_of(whole_key_);
+  if (lazy() && passed_bytes_ == 0) value(output, k);  // the first one tells how big they are
+  return passed_bytes_;
 }
 
 }  // namespace plumb

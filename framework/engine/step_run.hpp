@@ -2,16 +2,19 @@
 /// One step of a plan in one pass, with its inputs joined: what it is asked for, it makes, remembers or passes through.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "plumb/engine/admission.hpp"
 #include "plumb/engine/bookkeeping.hpp"
-#include "plumb/engine/memo.hpp"
+#include "plumb/engine/executor.hpp"
+#include "plumb/engine/results.hpp"
 #include "plumb/pipeline/plan.hpp"
 #include "plumb/plugin/step.hpp"
-#include "plumb/store/store.hpp"
+#include "plumb/store/index.hpp"
 
 namespace plumb {
 
@@ -27,29 +30,55 @@ struct Source {
 /// What all step runs of a run share.
 struct RunState {
   Bookkeeping& books;
-  Memo& memo;
-  Store* store = nullptr;  ///< none: results live no longer than the run
-  bool fresh = false;      ///< nothing is taken from it
+  Results& results;
+  Admission& admission;
+  Executor* executor = nullptr;  ///< none: calls are made in this process
+  int pass = -1;                 ///< of the innermost repeat around the step
+  /// In a worker: takes what steps count whose frames pass through a call, instead of the books.
+  std::function<void(const StepRun& run, std::size_t output, std::size_t item, const StoredResult& said)> passed = nullptr;
 };
 
 /// How long the items of a step live.
-enum class Keeping {
+enum class Keeping : std::uint8_t {
   passing,     ///< made anew whenever asked for: frames, and clouds that only one following step takes
   kept,        ///< made once, kept as long as someone may ask
-  remembered,  ///< kept, and also looked up and stored in the memo: the step may come again with the same inputs
+  remembered,  ///< kept, and looked up in memory too when there is no store: the step may come again with the same inputs
 };
+
+/// What decided over the results of a step: its name and version, parameters, files and inputs, each as text. For `--explain`.
+using Facts = std::vector<Fact>;
 
 class StepRun : public std::enable_shared_from_this<StepRun> {
  public:
-  StepRun(const PlannedStep& plan, const Step& step, const ParameterValues& values,
-          std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
+  StepRun(const PlannedStep& plan, const Step& step, ParameterValues values, std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
 
-  /// Makes everything that is to be kept: the whole step, or all its items in parallel.
+  /// Makes everything that is to be kept: the whole step, or all its items.
   void start();
+  /// In a worker: takes over what another process made and put into the store, by its keys.
+  void adopt_items(std::vector<Hash128> keys, Source edges);
+  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys);
+  /// In a worker: joins the inputs of a step whose calls are asked for one by one.
+  void join();
+  /// In a worker: makes one call, puts its result into the store unless the step has lazy outputs, and writes down what became of it. Throws Error.
+  void make_one(std::size_t k, Reply& reply);
 
   const PlannedStep& plan() const { return plan_; }
+  const ParameterValues& values() const { return values_; }
+  Keeping keeping() const { return keeping_; }
+  const std::vector<std::vector<Source>>& inputs() const { return inputs_; }
   bool itemwise() const;                          ///< one call a frame, segment or edge
+  bool lazy() const;                              ///< has outputs that are made when asked for
   std::size_t items() const { return items_; }    ///< calls, for an item-wise step
+  const std::vector<Hash128>& item_keys() const { return kept_keys_; }
+  const Hash128& whole_key() const { return whole_key_; }
+  const std::vector<std::vector<Hash128>>& whole_keys() const { return whole_keys_; }
+  const Source& edges_source() const { return edges_source_; }
+  /// "step 'coarse.matches' (match.fpfh_mutual), edge 3-4".
+  std::string title(std::size_t k) const;
+  std::string item_name(std::size_t k) const;     ///< "edge 3-4"; empty for a step on whole collections
+  /// Asked after start(), with a store.
+  Facts facts();
+
   /// How many values `output` has: 1 for a value of the whole pipeline.
   std::size_t count(int output) const;
   /// Value k of an output, made or fetched. Throws Error that names step and item.
@@ -58,25 +87,58 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   Hash128 key(int output, std::size_t k = 0);
   /// The edges that edge-wise values of this run belong to.
   std::shared_ptr<const Edges> edges() const { return edges_; }
+  /// What value k of an output takes in memory [bytes], about; 0 when nobody knows yet.
+  std::size_t size_of(int output, std::size_t k);
+  /// Books what was counted in another process of a value that passes through, once however often it is made.
+  void book_passed(const PassedCounts& passed);
+  /// Whether another process put the result of call k into the store; what its step said is said again then.
+  bool adopt_result(std::size_t k);
+  /// Throws Error unless other processes can get this run's results from the store.
+  void require_in_store() const;
 
  private:
-  std::vector<AnyValue> make(std::size_t k, const Hash128& key);
+  struct Failed {
+    std::size_t item;
+    std::string sentence;
+  };
+  // step_call.cpp: what one call sees
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
-  void find_items();
-  void start_whole();
-  void check_items(std::size_t output);
   std::pair<std::size_t, std::size_t> frames_of(std::size_t k) const;
-  std::string item_name(std::size_t k) const;
-  std::vector<PortOutput> call(std::size_t k, StoredResult* said = nullptr);
-  std::optional<StoredResult> stored(const Hash128& key);
+  std::size_t expected_bytes(std::size_t k);
   std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
-  void run_fold(std::vector<PortOutput>& outputs, StoredResult* said);
-  bool first_asked(int output, std::size_t k);
+  std::vector<PortOutput> call(std::size_t k, StoredResult* said);
+  void run_fold(std::vector<PortOutput>& outputs, Context& context);
+  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
+  // step_items.cpp: the items of an item-wise step
+  void find_items();
+  void start_items();
+  void make_items_here();
+  void make_items_elsewhere();
+  void settle(std::vector<Failed> failed);
+  bool reuse(std::size_t k);
+  void make_item(std::size_t k);
+  SharedResult fetch(std::size_t k);
+  std::vector<AnyValue> pass(std::size_t k);
+  // step_whole.cpp: a step on whole collections
+  void start_whole();
+  void take_whole(std::vector<PortOutput> outputs, StoredResult said);
+  bool find_whole();
+  void make_whole_elsewhere();
+  void name_values();
+  void check_items(std::size_t output);
+  SharedResult whole();
+  // both
+  bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
+  void say_again(const StoredResult& result);
+  void book(const Reply& reply);
+  StoredResult result_of(std::vector<PortOutput>& outputs, StoredResult said) const;
+  Hash128 kept(const Hash128& key, StoredResult result, SharedResult& pin);
 
   const PlannedStep& plan_;
   const Step& step_;
+  ParameterValues values_;
   std::shared_ptr<const void> params_;
   Hash128 base_key_, files_key_;
   std::vector<std::vector<Source>> inputs_;
@@ -84,12 +146,16 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   RunState state_;
 
   std::size_t items_ = 0;
+  Source edges_source_;  ///< where edges_ come from
   std::shared_ptr<const Edges> edges_;
-  std::vector<std::vector<AnyValue>> kept_;  ///< by item, then output
-  std::vector<Hash128> kept_keys_;           ///< by item
-  std::vector<PortOutput> whole_;            ///< of a step on whole collections, by output
+  std::vector<Hash128> kept_keys_;   ///< by item
+  std::vector<SharedResult> pins_;   ///< by item: what the store did not take
+  Hash128 whole_key_;
+  SharedResult whole_pin_;           ///< of a step on whole collections, unless it may leave memory
+  std::vector<LazyItems> lazy_;      ///< by output
   std::vector<std::vector<Hash128>> whole_keys_;
   std::vector<std::unique_ptr<std::atomic<bool>[]>> asked_;  ///< of what is made anew whenever asked for: by output, then item
+  std::atomic<std::size_t> passed_bytes_ = 0;                ///< the biggest value that passed so far
 };
 
 }  // namespace plumb

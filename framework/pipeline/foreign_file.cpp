@@ -30,7 +30,7 @@ std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
   const std::string name = "'" + file.string() + "' is ";
   if (text.starts_with(lock_first_line))
     return Fault{name + "the record of a run, not a pipeline.",
-                 "Give the pipeline that was run; its text stands in the record, behind 'pipeline:'."};
+                 "Give the pipeline that was run; or repeat the run itself: plumb run --locked " + file.string() + " -o DIR."};
   const std::string kind = io::kind_of_content(text);
   if (kind.empty() || kind == "a pipeline") return std::nullopt;
   if (kind == "a JSON Schema")

@@ -31,12 +31,19 @@ struct PlannedParameter {
   int repeat = -1, row = -1;     ///< index into Plan::repeats and its rows
 };
 
+/// What follows when a call of a step fails.
+enum class OnError {
+  stop,  ///< the run stops when the step's other items are done
+  drop,  ///< the item's values are empty: an edge without matches
+};
+
 struct PlannedStep {
   std::string path;  ///< "coarse.matches"
   const StepDescription* description = nullptr;
   Origin origin;
   std::vector<std::vector<Wire>> inputs;      ///< by input port; none for an optional port that is not wired
   std::vector<PlannedParameter> parameters;   ///< by the description's parameters, defaults included
+  OnError on_error = OnError::stop;
   int domain = -1;  ///< of frame-, segment- and edge-wise steps: the step whose output says which items there are
 };
 

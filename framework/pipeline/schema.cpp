@@ -108,7 +108,8 @@ Json step(const Registry& registry) {
       object({{"use", {{"type", "string"}, {"enum", names}, {"enumDescriptions", summaries}}},
               {"from", described({{"type", {"string", "array", "object"}}},
                                  "A step for the one input that fits, or steps by input.")},
-              {"with", described({{"type", "object"}}, "Parameters.")}},
+              {"with", described({{"type", "object"}}, "Parameters.")},
+              {"on_error", described({{"enum", {"stop", "drop"}}}, "When a call fails: stop (the default), or drop, which leaves the edge without matches.")}},
              {"use"});
   if (!rules.empty()) schema["allOf"] = rules;
   return schema;

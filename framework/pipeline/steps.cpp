@@ -108,18 +108,34 @@ class Steps {
     PlannedStep planned;
     planned.path = path(scope, entry.key);
     planned.origin = entry.origin;
-    check_keys(draft_, node, "step '" + planned.path + "'", {"use", "from", "with"});
+    check_keys(draft_, node, "step '" + planned.path + "'", {"use", "from", "with", "on_error"});
     const Node& use = *node.at("use");
     if (use.is_scalar()) planned.description = draft_.registry.find(use.text);
     if (!planned.description)
       unknown_step(planned.path, use);
     else
-      planned.inputs.resize(planned.description->inputs.size());
+      planned.inputs.resize(planned.description->inputs.size()), read_on_error(planned, node);
     draft_.plan.steps.push_back(std::move(planned));
     DraftStep drafted{&node, scope, repeat, sequence_.at(&node)};
-    for (const std::string& key : node.keys()) drafted.misspelt |= key != "use" && key != "from" && key != "with";
+    for (const std::string& key : node.keys()) drafted.misspelt |= key != "use" && key != "from" && key != "with" && key != "on_error";
     draft_.dangling |= drafted.misspelt;
     draft_.steps.push_back(drafted);
+  }
+
+  void read_on_error(PlannedStep& planned, const Node& node) {
+    const Node* on_error = node.at("on_error");
+    if (!on_error) return;
+    const std::string step = "step '" + planned.path + "'";
+    if (on_error->is_scalar() && on_error->text == "stop") return;
+    if (!on_error->is_scalar() || on_error->text != "drop")
+      return draft_.fault(on_error->origin, step + ": on_error is stop or drop, not " + on_error->shown() + ".",
+                          "stop: the run ends when the step's other items are done. drop: an edge is left without matches.");
+    const auto& outputs = planned.description->outputs;
+    if (planned.description->kind != StepKind::edge ||
+        !std::all_of(outputs.begin(), outputs.end(), [](const auto& port) { return port.type == &type_of<Matches>(); }))
+      return draft_.fault(on_error->origin, step + ": on_error: drop is for steps that give an edge's Matches; " + planned.description->name + " does not.",
+                          "Leave it out: the run then stops when the step's other items are done.");
+    planned.on_error = OnError::drop;
   }
 
   void unknown_step(const std::string& step, const Node& use) {

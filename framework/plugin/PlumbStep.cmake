@@ -1,9 +1,9 @@
-# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...])
+# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED])
 #
 # Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
 # (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "NOT_INSTALLED" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
@@ -28,8 +28,10 @@ function(plumb_add_step step)
                        COMMENT "Manifest of ${step}")
     add_dependencies(step_${id} plumb_manifest)
   endif()
-  install(TARGETS step_${id} LIBRARY DESTINATION lib/plumb)
-  install(FILES ${PLUMB_MODULE_DIR}/${step}.json DESTINATION lib/plumb OPTIONAL)
+  if(NOT arg_NOT_INSTALLED)
+    install(TARGETS step_${id} LIBRARY DESTINATION lib/plumb)
+    install(FILES ${PLUMB_MODULE_DIR}/${step}.json DESTINATION lib/plumb OPTIONAL)
+  endif()
 
   if(PLUMB_TESTS AND arg_TESTS)
     add_executable(test_${id} ${arg_TESTS} $<TARGET_OBJECTS:${id}_objects>)

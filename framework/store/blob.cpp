@@ -1,71 +1,105 @@
 #include "plumb/store/blob.hpp"
 
+#include <array>
+
 #include "plumb/data/archive.hpp"
 
 namespace plumb {
 namespace {
 
-constexpr std::string_view magic = "plumb blob 1\n";
+constexpr std::string_view magic = "plumb blob 2\n";
+constexpr std::size_t sum_size = 2 * sizeof(std::uint64_t);
 
-Hash128 checksum(std::string_view bytes) {
-  Hasher hasher;
-  hasher.bytes(bytes.data(), bytes.size());
-  return hasher.hash();
+/// Places are counted from the first byte of the file: arrays are aligned there.
+std::optional<BlobHead> take_head(const Hash128& key, InArchive& in) {
+  std::array<char, magic.size()> seen;
+  for (char& c : seen) in(c);
+  if (std::string_view(seen.data(), seen.size()) != magic) return std::nullopt;
+  BlobHead head;
+  in(head.key.high, head.key.low, head.step);
+  if (head.key != key) return std::nullopt;
+  return head;
+}
+
+std::optional<StoredResult> take_result(InArchive& in) {
+  StoredResult result;
+  std::uint64_t outputs = 0, count = 0;
+  in(outputs);
+  for (std::uint64_t o = 0; o < outputs; ++o) {
+    std::uint64_t values = 0;
+    in(values);
+    auto& to = result.outputs.emplace_back();
+    for (std::uint64_t v = 0; v < values; ++v) {
+      std::string name;
+      int version = 0;
+      in(name, version);
+      const Type* type = find_type(name);
+      if (!type || type->version != version) return std::nullopt;
+      to.push_back({type, type->read(in)});
+    }
+  }
+  in(count);
+  for (std::uint64_t n = 0; n < count; ++n) {
+    auto& [what, number] = result.counts.emplace_back();
+    in(what, number);
+  }
+  in(result.warnings);
+  if (!in.at_end()) return std::nullopt;
+  return result;
+}
+
+/// All but the checksum; empty when that does not fit.
+std::string_view body_of(std::string_view bytes) {
+  if (bytes.size() < magic.size() + sum_size || !bytes.starts_with(magic)) return {};
+  const std::string_view body = bytes.substr(0, bytes.size() - sum_size);
+  Hash128 sum;
+  InArchive(bytes.substr(body.size()))(sum.high, sum.low);
+  return sum == hash_of(body) ? body : std::string_view();
 }
 
 }  // namespace
 
-std::string blob_of(const Hash128& key, const StoredResult& result) {
+std::string blob_of(const Hash128& key, const StoredResult& result, std::string_view step) {
+  std::size_t size = 1024;  // about what all of it takes: one buffer, never moved
+  for (const auto& values : result.outputs)
+    for (const AnyValue& value : values) size += value.type->bytes(value.value.get()) + 32 * array_alignment;
   OutArchive<TextSink> out;
+  out.text.reserve(size);
   out.put(magic.data(), magic.size());
-  out(key.high, key.low, static_cast<std::uint64_t>(result.outputs.size()));
+  out(key.high, key.low, std::string(step), static_cast<std::uint64_t>(result.outputs.size()));
   for (const auto& values : result.outputs) {
     out(static_cast<std::uint64_t>(values.size()));
-    for (const AnyValue& value : values)
-      out(std::string(value.type->name), value.type->version, value.type->write(value.value.get()));
+    for (const AnyValue& value : values) {
+      out(std::string(value.type->name), value.type->version);
+      value.type->write(value.value.get(), out);
+    }
   }
   out(static_cast<std::uint64_t>(result.counts.size()));
   for (const auto& [what, n] : result.counts) out(what, n);
   out(result.warnings);
-  const Hash128 sum = checksum(out.text);
+  const Hash128 sum = hash_of(out.text);
   out(sum.high, sum.low);
   return std::move(out.text);
 }
 
 std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes) {
-  constexpr std::size_t sum_size = 2 * sizeof(std::uint64_t);
-  if (bytes.size() < magic.size() + sum_size || !bytes.starts_with(magic)) return std::nullopt;
-  const std::string_view body = bytes.substr(0, bytes.size() - sum_size);
-  Hash128 sum, own;
-  InArchive(bytes.substr(body.size()))(sum.high, sum.low);
-  if (sum != checksum(body)) return std::nullopt;
+  const std::string_view body = body_of(bytes);
+  if (body.empty()) return std::nullopt;
   try {
-    InArchive in(body.substr(magic.size()));
-    std::uint64_t outputs = 0, count = 0;
-    in(own.high, own.low, outputs);
-    if (own != key) return std::nullopt;
-    StoredResult result;
-    for (std::uint64_t o = 0; o < outputs; ++o) {
-      std::uint64_t values = 0;
-      in(values);
-      auto& to = result.outputs.emplace_back();
-      for (std::uint64_t v = 0; v < values; ++v) {
-        std::string name, value;
-        int version = 0;
-        in(name, version, value);
-        const Type* type = find_type(name);
-        if (!type || type->version != version) return std::nullopt;
-        to.push_back({type, type->read(value)});
-      }
-    }
-    in(count);
-    for (std::uint64_t n = 0; n < count; ++n) {
-      auto& [what, number] = result.counts.emplace_back();
-      in(what, number);
-    }
-    in(result.warnings);
-    if (!in.at_end()) return std::nullopt;
-    return result;
+    InArchive in(body);
+    if (!take_head(key, in)) return std::nullopt;
+    return take_result(in);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<BlobHead> check_blob(const Hash128& key, std::string_view bytes) { return read_head(key, body_of(bytes)); }
+
+std::optional<BlobHead> read_head(const Hash128& key, std::string_view beginning) {
+  try {
+    InArchive in(beginning);
+    return take_head(key, in);
   } catch (const Error&) {
     return std::nullopt;
   }

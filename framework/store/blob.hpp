@@ -9,10 +9,26 @@
 
 namespace plumb {
 
-/// "plumb blob 1\n", the key, the outputs (types by name and version), counts, warnings; then XXH3-128 of all that.
-std::string blob_of(const Hash128& key, const StoredResult& result);
+/// What a blob says of itself: all that the index knows of it.
+struct BlobHead {
+  Hash128 key;
+  std::string step;  ///< registered name of the step that made it: describe.fpfh
+};
+
+/// As many bytes of a file as read_head wants to see.
+inline constexpr std::size_t blob_head_size = 512;
+
+/// "plumb blob 2\n", the key, the step, the outputs (types by name and version), counts, warnings; then XXH3-128 of all that.
+/// Arrays of plain values begin at multiples of 16 bytes (data/archive.hpp), so that they can be read where the file is mapped.
+std::string blob_of(const Hash128& key, const StoredResult& result, std::string_view step);
 
 /// Reads them back. None: another key, cut, altered, or values of a type or version that this program does not know.
 std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes);
+
+/// The head, when the bytes are whole: this key, and the checksum fits. What values they hold is not looked at.
+std::optional<BlobHead> check_blob(const Hash128& key, std::string_view bytes);
+
+/// The head from the beginning of a blob alone, whose rest is not looked at. None: it is no blob, or another key's.
+std::optional<BlobHead> read_head(const Hash128& key, std::string_view beginning);
 
 }  // namespace plumb

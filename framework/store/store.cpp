@@ -4,53 +4,29 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <fstream>
 #include <mutex>
-#include <sstream>
 
 #include "plumb/data/error.hpp"
 #include "plumb/store/blob.hpp"
+#include "plumb/store/blob_file.hpp"
+#include "plumb/store/index.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char *mark_file = "plumb-store", *mark = "plumb store 1";
+constexpr const char *mark_file = "plumb-store", *mark = "plumb store 2";
 
 std::mutex fault_mutex;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return std::move(text).str();
-}
-
-/// Writes a file whole. False, with errno, when the disk does not take it.
-bool write_whole(const fs::path& file, std::string_view bytes) {
-  const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (to < 0) return false;
-  bool good = true;
-  while (good && !bytes.empty()) {
-    const ssize_t n = write(to, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    good = n > 0;
-    if (good) bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  const int why = errno;
-  good = close(to) == 0 && good;
-  if (!good) unlink(file.c_str()), errno = why;
-  return good;
-}
-
 }  // namespace
 
-Store::Store(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal()) {
+Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(folder).lexically_normal()) {
   const auto refuse = [&](const std::string& why) { throw Error("--store " + folder.string() + ": " + why); };
   std::error_code error;
   const fs::path marked = folder_ / mark_file;
   if (fs::exists(marked, error)) {
-    std::string line = text_of(marked);
+    std::string line(MappedFile(marked).bytes());
     line.resize(std::min(line.find('\n'), line.size()));
     if (line != mark)
       refuse("is a store of another format ('" + line.substr(0, 40) + "', this program has '" + mark + "'); give another folder");
@@ -66,43 +42,74 @@ Store::Store(const fs::path& folder) : folder_(fs::absolute(folder).lexically_no
     if (!error) fs::create_directories(folder_ / inner, error);
   if (!error && access((folder_ / "new").c_str(), W_OK) != 0) error = {errno, std::generic_category()};
   if (error) refuse("cannot be written (" + error.message() + "); give another folder");
+  if (role == StoreRole::driver) index_ = std::make_unique<Index>(folder_);
 }
 
 Store::~Store() { sync(); }
 
-fs::path Store::file_of(const Hash128& key) const {
-  const std::string name = key.text();
-  return folder_ / "blobs" / name.substr(0, 2) / name;
-}
-
 std::optional<StoredResult> Store::find(const Hash128& key) {
-  const fs::path file = file_of(key);
-  std::error_code error;
-  if (!fs::exists(file, error)) return std::nullopt;
-  auto result = read_blob(key, text_of(file));
+  const fs::path file = blob_file(folder_, key);
+  const MappedFile mapped(file);
+  if (!mapped.there()) return std::nullopt;
+  auto result = read_blob(key, mapped.bytes());
   if (!result) {
     ++damaged_;
-    fs::remove(file, error);
+    remove(key);
+  } else if (index_) {
+    index_->used(key);
   }
   return result;
 }
 
-void Store::put(const Hash128& key, const StoredResult& result) {
-  if (failed_) return;
-  const fs::path file = file_of(key);
+bool Store::put(const Hash128& key, const StoredResult& result, std::string_view step) {
+  if (failed_) return false;
+  const fs::path file = blob_file(folder_, key);
   const fs::path fresh = folder_ / "new" / (key.text() + "." + std::to_string(getpid()) + "." + std::to_string(++written_));
-  if (!write_whole(fresh, blob_of(key, result))) return fail(std::strerror(errno));
+  const std::string bytes = blob_of(key, result, step);
+  if (!write_whole(fresh, bytes)) return fail(std::strerror(errno));
   std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (!error) fs::rename(fresh, file, error);
-  if (!error) return;
-  fail(error.message());
+  fs::rename(fresh, file, error);
+  if (error) {  // the first of its folder
+    error.clear();
+    fs::create_directories(file.parent_path(), error);
+    if (!error) fs::rename(fresh, file, error);
+  }
+  if (!error) {
+    if (index_) index_->made(key, step, bytes.size());
+    return true;
+  }
+  const std::string why = error.message();
   fs::remove(fresh, error);
+  return fail(why);
 }
 
-void Store::fail(const std::string& why) {
+bool Store::contains(const Hash128& key) const {
+  if (access(blob_file(folder_, key).c_str(), F_OK) != 0) return false;
+  if (index_) index_->used(key);
+  return true;
+}
+
+std::size_t Store::bytes_of(const Hash128& key) const {
+  std::error_code error;
+  const auto size = fs::file_size(blob_file(folder_, key), error);
+  return error ? 0 : size;
+}
+
+void Store::note(const Hash128& key, std::string_view step, std::size_t bytes) {
+  ++written_;  // sync has something to do
+  if (index_) index_->made(key, step, bytes > 0 ? bytes : bytes_of(key));
+}
+
+bool Store::remove(const Hash128& key) {
+  const bool removed = unlink(blob_file(folder_, key).c_str()) == 0;
+  if (index_) index_->gone(key);
+  return removed;
+}
+
+bool Store::fail(const std::string& why) {
   const std::lock_guard lock(fault_mutex);
   if (!failed_.exchange(true)) fault_ = why;
+  return false;
 }
 
 std::string Store::fault() const {
@@ -110,7 +117,11 @@ std::string Store::fault() const {
   return fault_;
 }
 
+std::string Store::index_rebuilt() const { return index_ ? index_->rebuilt() : ""; }
+std::string Store::index_fault() const { return index_ ? index_->fault() : ""; }
+
 void Store::sync() {
+  if (index_) index_->flush();
   if (written_ == 0) return;
   const int place = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (place < 0) return;

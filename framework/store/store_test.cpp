@@ -9,6 +9,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/store/blob.hpp"
+#include "plumb/store/store_testing.hpp"
 
 namespace plumb {
 namespace {
@@ -16,34 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-Poses poses(double x) {
-  Poses result;
-  result.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, 2, 3));
-  return result;
-}
-
-StoredResult result(double x) {
-  Metrics metrics;
-  metrics.add("rmse", x, "m");
-  return {{{any_value(poses(x))}, {any_value(metrics), any_value(metrics)}, {}}, {{"points dropped", 7}}, {"poor"}};
-}
-
-double x_of(const StoredResult& stored) { return stored.outputs[0][0].as<Poses>()->T_world_segment[0].translation.x(); }
-
-std::vector<fs::path> blobs_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "blobs"))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  return files;
-}
-
 TEST(Store, GivesBackWhatWasPutInAnotherRunToo) {
   const io::TestFolder folder;
   const Hash128 key{1, 2};
   {
     Store store(folder.path() / "deep/store");
     EXPECT_FALSE(store.find(key));
-    store.put(key, result(5));
+    store.put(key, small_result(5), "a.step");
     EXPECT_EQ(x_of(*store.find(key)), 5);
   }
   Store again(folder.path() / "deep/store");
@@ -60,7 +40,7 @@ TEST(Store, GivesBackWhatWasPutInAnotherRunToo) {
 }
 
 TEST(Store, NoticesEachByteThatChanged) {
-  const std::string good = blob_of({1, 2}, result(5));
+  const std::string good = blob_of({1, 2}, small_result(5), "a.step");
   ASSERT_TRUE(read_blob({1, 2}, good));
   EXPECT_FALSE(read_blob({1, 3}, good));  // under another name
   for (std::size_t k = 0; k < good.size(); ++k) {
@@ -75,19 +55,74 @@ TEST(Store, NoticesEachByteThatChanged) {
 TEST(Store, RemovesWhatIsDamagedAndTakesItAgain) {
   const io::TestFolder folder;
   Store store(folder.path() / "store");
-  store.put({1, 2}, result(5));
+  store.put({1, 2}, small_result(5), "a.step");
   const auto files = blobs_in(store.folder());
   ASSERT_EQ(files.size(), 1u);
   fs::resize_file(files[0], fs::file_size(files[0]) - 3);
   EXPECT_FALSE(store.find({1, 2}));
   EXPECT_EQ(store.damaged(), 1u);
   EXPECT_TRUE(blobs_in(store.folder()).empty());
-  store.put({1, 2}, result(6));
+  store.put({1, 2}, small_result(6), "a.step");
   EXPECT_EQ(x_of(*store.find({1, 2})), 6);
 }
 
+TEST(Store, MakesAgainWhateverByteOfAFileChanged) {
+  const io::TestFolder folder;
+  Store store(folder.path() / "store");
+  for (std::size_t k = 0; k < 40; ++k) {
+    store.put({1, 2}, small_result(static_cast<double>(k)), "a.step");
+    const fs::path file = blobs_in(store.folder()).at(0);
+    io::flip_byte(file, k * fs::file_size(file) / 40);
+    EXPECT_FALSE(store.find({1, 2})) << k;
+    EXPECT_FALSE(store.contains({1, 2}));
+  }
+  EXPECT_EQ(store.damaged(), 40u);
+}
+
+TEST(Store, LaysArraysWhereTheyCanBeMapped) {
+  Segment segment;
+  segment.cloud = io::full_cloud(77);
+  segment.frame = {7, 8, 9};
+  const std::string blob = blob_of({1, 2}, {{{any_value(segment)}}, {}, {}}, "a.step");
+  const auto place_of = [&](const auto& array) {
+    return blob.find(std::string_view(reinterpret_cast<const char*>(array.data()), array.size() * sizeof array[0]));
+  };
+  for (const auto* array : {&segment.cloud.x, &segment.cloud.y, &segment.cloud.intensity, &segment.cloud.nx}) {
+    ASSERT_NE(place_of(*array), std::string::npos);
+    EXPECT_EQ(place_of(*array) % 16, 0u);
+  }
+  EXPECT_EQ(place_of(segment.cloud.ring) % 16, 0u);
+  const auto back = read_blob({1, 2}, blob)->outputs[0][0].as<Segment>();
+  EXPECT_EQ(content_hash(*back), content_hash(segment));
+}
+
+TEST(Store, HashesArraysWithoutWhatAlignsThem) {
+  const Descriptor value{{1, 2, 3}};
+  Hasher hasher;
+  const std::uint64_t size = 3;
+  hasher.bytes(&size, sizeof size);
+  hasher.bytes(value.values.data(), 3 * sizeof(float));
+  EXPECT_EQ(content_hash(value), hasher.hash());
+  EXPECT_EQ(to_bytes(value).size(), 16 + 3 * sizeof(float));
+}
+
+TEST(Store, LetsWorkersLeaveTheIndexAlone) {
+  const io::TestFolder folder;
+  {
+    Store worker(folder.path() / "store", StoreRole::worker);
+    worker.put({1, 2}, small_result(5), "a.step");
+    EXPECT_FALSE(worker.index());
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "store/index.sqlite"));
+  Store driver(folder.path() / "store");
+  EXPECT_TRUE(driver.contains({1, 2}));
+  EXPECT_EQ(driver.bytes_of({1, 2}), fs::file_size(blobs_in(driver.folder()).at(0)));
+  EXPECT_EQ(driver.bytes_of({1, 3}), 0u);
+  EXPECT_EQ(driver.index_rebuilt(), "");
+}
+
 TEST(Store, TakesResultsOfTypesItDoesNotKnowForNone) {
-  std::string blob = blob_of({1, 2}, result(5));
+  std::string blob = blob_of({1, 2}, small_result(5), "a.step");
   const auto at = blob.find("Poses");
   ASSERT_NE(at, std::string::npos);
   blob.replace(at, 5, "Posts");
@@ -120,7 +155,7 @@ TEST(Store, IsSharedByThreadsAndRuns) {
       threads.emplace_back([&, t] {
         Store& store = t % 2 ? one : other;
         for (std::uint64_t k = 0; k < 200; ++k) {
-          store.put({9, k}, result(static_cast<double>(k)));
+          store.put({9, k}, small_result(static_cast<double>(k)), "a.step");
           const auto found = store.find({9, k});
           ASSERT_TRUE(found && x_of(*found) == static_cast<double>(k));
         }

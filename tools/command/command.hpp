@@ -23,6 +23,8 @@ void add_schema(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_cache(CLI::App& app);
+void add_worker(CLI::App& app);
 
 /// `--plugin-path`, given before the sub-command; filled while the command line is read.
 extern std::vector<std::filesystem::path> plugin_path;

@@ -12,6 +12,7 @@
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/overlay.hpp"
 #include "plumb/report/comparison.hpp"
+#include "store_option.hpp"
 
 namespace plumb::command {
 namespace {
@@ -25,6 +26,7 @@ struct Options {
   ComparedFigures figures;
   unsigned threads = 0;
   bool quiet = false, json = false;
+  StoreOption store{"none"};
 };
 
 /// A pipeline with what is laid over it for one input, ready to run.
@@ -145,6 +147,7 @@ void compare(const Options& options) {
   }
   for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
   remove_staging_when_interrupted();
+  const std::unique_ptr<Store> store = options.store.open();
   if (!options.output.empty())
     for (std::size_t v = 0; v < variants.size(); ++v)
       for (std::size_t k = 0; k < input_names.size(); ++k)
@@ -159,8 +162,10 @@ void compare(const Options& options) {
         Console console(true, "");
         RunOptions run_options;
         run_options.threads = options.threads;
+        run_options.store = store.get();
+        const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
         const RunResult result = run_plan(run.plan, steps, run_options, console);
-        if (run.folder) run.folder->fill(run.plan, result);
+        if (run.folder) run.folder->fill(record, result);
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
@@ -171,6 +176,7 @@ void compare(const Options& options) {
         throw CLI::RuntimeError(3);
       }
     }
+  if (store) say_faults(*store);
   const Comparison comparison = plumb::compare(variant_names, input_names, figures);
   std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
 }
@@ -229,6 +235,8 @@ void add_compare(CLI::App& app) {
                    "Threads to use; 0 for as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  command->add_option("--store", options->store.given,
+                      "Folder in which results are kept, as for run; what is taken from there counts as no time, so that by itself compare uses none");
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(

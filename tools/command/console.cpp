@@ -8,38 +8,19 @@
 #include <cstdio>
 #include <fstream>
 
-#include "plumb/data/error.hpp"
 #include "plumb/report/weakness.hpp"
 
 namespace plumb::command {
 
-namespace {
-
-constexpr const char* log_mark = "# What a run of plumb said";
-
-}  // namespace
-
-void begin_log(const std::filesystem::path& file) {
-  namespace fs = std::filesystem;
-  std::string first;
-  if (std::ifstream earlier(file); earlier) std::getline(earlier, first);
-  std::error_code error;
-  if (fs::exists(file, error) && !(fs::is_regular_file(file) && (fs::file_size(file) == 0 || first == log_mark)))
-    throw Error("--log " + file.string() + ": exists and is no log of plumb; name another file");
-  std::ofstream out(file);
-  out << log_mark << '\n';
-  out.close();
-  if (!out) throw Error("--log " + file.string() + ": cannot be written; name a file in a folder that exists");
-}
-
 Console::Console(bool quiet, const std::string& log_file)
-    : quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {
+    : quiet_(quiet), terminal_(!quiet && isatty(STDERR_FILENO)) {
   auto screen = std::make_shared<spdlog::sinks::stderr_sink_mt>();
   screen->set_pattern("%v");
   screen->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   log_ = std::make_shared<spdlog::logger>("plumb", screen);
   log_->set_level(spdlog::level::debug);
   if (!log_file.empty()) {
+    std::ofstream(log_file, std::ios::app) << log_mark << '\n';
     auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, false);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
     log_->sinks().push_back(file);
@@ -66,35 +47,29 @@ void Console::draw() {
   std::fflush(stderr);
 }
 
-void Console::step_begins(const std::string& path, std::size_t items) {
+void Console::event(const Event& event) {
   const std::lock_guard lock(mutex_);
-  path_ = path;
-  items_ = items;
-  done_ = 0;
-  draw();
-}
-
-void Console::item_done(const std::string&) {
-  const std::lock_guard lock(mutex_);
-  ++done_;
-  draw();
-}
-
-void Console::step_ends(const std::string& path, double seconds) {
-  const std::lock_guard lock(mutex_);
-  clear();
-  const double since = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", since, path, items_, items_ == 1 ? " " : "s", seconds);
-}
-
-void Console::pass_begins(const std::string& repeat, int pass, int at_most) {
-  const std::lock_guard lock(mutex_);
-  clear();
-  log_->info("{}: pass {} of at most {}", repeat, pass + 1, at_most);
+  switch (event.kind) {
+    case Event::Kind::step_begins:
+      path_ = event.step;
+      items_ = event.items;
+      done_ = 0;
+      return draw();
+    case Event::Kind::item:
+      if (event.step == path_) ++done_;  // not of one that passes its items on to this step
+      return draw();
+    case Event::Kind::step_ends:
+      clear();
+      return log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration, path_, items_, items_ == 1 ? " " : "s", event.duration);
+    case Event::Kind::pass_begins:
+      clear();
+      return log_->info("{}: pass {} of at most {}", event.step, event.pass + 1, event.items);
+    case Event::Kind::note: return note(std::string(event.sentence));
+    default: return;
+  }
 }
 
 void Console::note(const std::string& sentence) {
-  const std::lock_guard lock(mutex_);
   clear();
   constexpr int most = 3;  // of one kind on the screen; the log has all
   const int told = ++notes_[kind_of_sentence(sentence)];

@@ -41,6 +41,8 @@ int main(int argc, char** argv) {
   plumb::command::add_simulate(app);
   plumb::command::add_evaluate(app);
   plumb::command::add_compare(app);
+  plumb::command::add_cache(app);
+  plumb::command::add_worker(app);
   try {
     app.parse(argc, argv);
     if (!std::cout.flush()) throw plumb::Error("standard output cannot be written; what was to be said is lost");

@@ -1,16 +1,21 @@
 /// plumb run: checks, runs, reports.
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include "console.hpp"
+#include "executor_options.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
+#include "plumb/data/amount.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/file_identity.hpp"
+#include "plumb/engine/event_file.hpp"
 #include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/runner.hpp"
+#include "side_file.hpp"
+#include "store_option.hpp"
 #include "summary.hpp"
 
 namespace plumb::command {
@@ -18,50 +23,111 @@ namespace {
 
 struct Options {
   PipelineOptions pipeline;
-  std::filesystem::path output;
+  std::filesystem::path output, locked, log, events, trace;
+  StoreOption store;
+  ExecutorOptions executor;
+  std::string memory;
   unsigned threads = 0;
-  bool quiet = false, times = false, fresh = false;
-  std::string log;
-  std::filesystem::path store;
+  bool quiet = false, times = true, fresh = false, verify_inputs = false, explain = false;
 };
 
-/// The output folder holds what the run made and nothing else.
-void require_log_elsewhere(const Options& options) {
-  if (options.log.empty()) return;
-  const auto log = std::filesystem::weakly_canonical(options.log), folder = std::filesystem::weakly_canonical(options.output);
-  const auto [end, _] = std::mismatch(folder.begin(), folder.end(), log.begin(), log.end());
-  if (end == folder.end())
-    throw Error("--log " + options.log + ": lies in the folder for the results, which holds what steps wrote alone; name a file beside it");
+/// What runs, and the record of it.
+struct Planned {
+  Plan plan;
+  RunRecord record;
+};
+
+/// The pipeline of a record, if all that it depends on is as it was then.
+Planned locked(const Options& options, const Registry& steps) {
+  const std::string name = options.locked.string();
+  const RunRecord then = read_lock(options.locked);
+  RunRecord now = record_now(then, steps, options.verify_inputs);
+  std::string all;
+  for (const std::string& sentence : differences(then, now)) all += (all.empty() ? "" : "\nplumb: ") + name + ": " + sentence;
+  if (!all.empty()) throw Error(all);
+  Plan plan = read_resolved(then.pipeline, name, steps);
+  plan.name = then.name;
+  plan.resolved = then.pipeline;
+  if (!describes(now, plan)) throw Error(name + ": its steps or inputs are not those of its pipeline; the record is damaged: run the pipeline itself to get a new one");
+  return {std::move(plan), std::move(now)};
 }
 
+/// Whoever listens to the run.
+class Listeners {
+ public:
+  Listeners(const Options& options) : console_(options.quiet, options.log) {
+    if (!options.events.empty()) files_.push_back(std::make_unique<EventLines>(options.events));
+    if (!options.trace.empty()) files_.push_back(std::make_unique<TraceFile>(options.trace));
+  }
+  Observers all() {
+    std::vector<Observer*> list{&console_};
+    for (const auto& file : files_) list.push_back(file.get());
+    return Observers(list);
+  }
+  void say_of_files() {
+    for (const auto& file : files_)
+      if (const std::string fault = file->fault(); !fault.empty()) std::cerr << fault << "; the results are whole\n";
+  }
+
+ private:
+  Console console_;
+  std::vector<std::unique_ptr<EventFile>> files_;
+};
+
 void say_of_store(const Store& store, const RunResult& result, bool quiet) {
-  if (store.damaged())
-    std::cerr << "store: " << store.damaged() << " damaged result" << (store.damaged() == 1 ? " was" : "s were") << " removed and made again\n";
-  if (const std::string fault = store.fault(); !fault.empty())
-    std::cerr << "store: from some result on nothing was kept (" << fault << "); the run and what is kept already are whole\n";
+  say_faults(store);
   if (quiet) return;
   std::size_t made = 0, reused = 0;
   for (const StepTime& time : result.times) made += time.items, reused += time.remembered;
   std::cerr << "store: " << reused << " results reused, " << made << " made\n";
 }
 
+constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
+
+std::uint64_t memory_of_text(const std::string& text) {
+  if (text.empty()) return 0;
+  const std::uint64_t bytes = bytes_of_text("--memory", text);
+  if (bytes < least_memory) throw Error("--memory " + text + ": is too little to run in; give 256MiB or more");
+  return bytes;
+}
+
+/// What leaves memory, and what workers make, goes through the store.
+void require_store(const Options& options, const Store* store) {
+  if (store) return;
+  const char* needs = options.executor.needs_store() ? "--isolate and --executor slurm" : !options.memory.empty() ? "--memory" : options.explain ? "--explain" : nullptr;
+  if (needs) throw Error(std::string("a store is needed for ") + needs + ", but there is none; give --store DIR");
+}
+
 void run(const Options& options) {
+  if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
+  const std::uint64_t memory = memory_of_text(options.memory);
   const Registry steps = installed_steps();
-  const Plan plan = read_pipeline(options.pipeline.file, options.pipeline.overlay, steps);
+  auto [plan, record] = options.locked.empty() ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}} : locked(options, steps);
   preflight(plan, steps);
-  require_log_elsewhere(options);
+  const std::vector<SideFile> side_files = {{"--log", options.log, "log", log_mark},
+                                            {"--events", options.events, "events", EventLines::mark},
+                                            {"--trace", options.trace, "trace", TraceFile::mark}};
+  require_elsewhere(side_files, options.output);
   remove_staging_when_interrupted();
-  std::unique_ptr<Store> store;
-  if (!options.store.empty()) store = std::make_unique<Store>(options.store);
+  const std::unique_ptr<Store> store = options.store.open();
+  require_store(options, store.get());
+  const auto executor = options.executor.make(options.threads, memory, options.verify_inputs, store.get());
+  if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
   OutputFolder folder(options.output);
-  if (!options.log.empty()) begin_log(options.log);
+  for (const SideFile& file : side_files)
+    if (!file.file.empty()) begin(file);
   try {
-    Console console(options.quiet, options.log);
+    Listeners listeners(options);
+    Observers all = listeners.all();
     RunOptions run_options;
     run_options.threads = options.threads;
     run_options.store = store.get(), run_options.fresh = options.fresh;
-    const RunResult result = run_plan(plan, steps, run_options, console);
-    folder.fill(plan, result);
+    run_options.memory = memory, run_options.executor = executor.get();
+    const RunResult result = run_plan(plan, steps, run_options, all);
+    folder.fill(std::move(record), result);
+    listeners.say_of_files();
+    if (options.explain)
+      for (const Explained& step : result.explained) std::cout << step.text() << "\n";
     if (store) say_of_store(*store, result, options.quiet);
     if (options.quiet) print_weak(std::cerr, result, false);
     else print_summary(std::cout, plan, result, options.output, options.times);
@@ -80,16 +146,29 @@ void add_run(CLI::App& app) {
   options->pipeline.overlay.needs_files = true;
   command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced")->required();
   command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->check(CLI::Range(0, 1024))->capture_default_str();
-  command->add_option("--store", options->store, "Folder in which results are kept, and from which a later run takes what did not change")
-      ->envname("PLUMB_STORE");
+  options->store.add_to(*command);
   command->add_flag("--fresh", options->fresh, "Take nothing from the store; keep what is made");
+  command->add_flag("--explain", options->explain, "Say of each step whether its results were reused, and the first thing that differs from the last run");
+  command->add_option("--memory", options->memory, "Bound of resident memory, such as 2GiB: what does not fit waits in the store");
+  options->executor.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");
-  command->add_flag("--times", options->times, "Show the time that each step took");
+  command->add_flag("--times,!--no-times", options->times, "Show the time and memory that each step took (unless --no-times or --quiet)");
   command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
+  command->add_option("--events", options->events, "Also write all that happens to this file, as it happens: a JSON object a line");
+  command->add_option("--trace", options->trace, "Also write which item was made when and by which thread, for ui.perfetto.dev");
+  command->add_flag("--verify-inputs", options->verify_inputs, "Read the inputs' files to know them by content, not by size and time alone");
+  auto* pipeline = command->get_option("PIPELINE")->required(false);
+  command->add_option("--locked", options->locked, "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; takes no PIPELINE")
+      ->excludes(pipeline)
+      ->excludes("--preset")
+      ->excludes("--set");
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
       "The results are the same for any number of threads. No results are left behind when a run fails or is interrupted.");
-  command->callback([options] { run(*options); });
+  command->callback([options] {
+    if (options->locked.empty() && options->pipeline.file.empty()) throw CLI::RequiredError("PIPELINE or --locked");
+    run(*options);
+  });
 }
 
 }  // namespace plumb::command

@@ -55,10 +55,10 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
 }
 
 void print_times(std::ostream& out, const RunResult& result) {
-  out << "\nCPU seconds of each step (items made, items remembered)\n";
+  out << "\nCPU seconds of each step, most memory [MiB] that the run held meanwhile (items made, items remembered)\n";
   for (const StepTime& time : result.times)
     out << "  " << std::left << std::setw(28) << time.path << std::right << std::fixed << std::setprecision(2) << std::setw(9)
-        << time.cpu_seconds << "  (" << time.items << ", " << time.remembered << ")\n";
+        << time.cpu_seconds << std::setw(8) << (time.peak_bytes + (1 << 19)) / (1 << 20) << "  (" << time.items << ", " << time.remembered << ")\n";
 }
 
 }  // namespace

@@ -32,4 +32,9 @@ std::string pcd_bytes(const Cloud& cloud);
 /// A binary little-endian PLY file of `cloud` with all arrays that it has. `comment` becomes a comment line if not empty.
 std::string ply_bytes(const Cloud& cloud, const std::string& comment = "");
 
+/// The beginning of such a file with nothing but x, y and z; 12 bytes a point follow, three little-endian float32. For clouds too large to
+/// be held twice.
+std::string pcd_header(std::size_t points);
+std::string ply_header(std::size_t points, const std::string& comment = "");
+
 }  // namespace plumb

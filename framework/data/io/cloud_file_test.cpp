@@ -52,6 +52,15 @@ TEST(CloudFile, GivesBackEveryArrayOfACloudWrittenAsPcdOrPly) {
   }
 }
 
+TEST(CloudFile, BeginsAsItsHeaderAlone) {
+  Cloud cloud;
+  for (int k = 0; k < 12; ++k) cloud.add({1, 2, 3});
+  std::string points;
+  for (int k = 0; k < 12; ++k) points += raw(1.0f, 2.0f, 3.0f);
+  EXPECT_EQ(ply_header(12, "made by a test") + points, ply_bytes(cloud, "made by a test"));
+  EXPECT_EQ(pcd_header(12) + points, pcd_bytes(cloud));
+}
+
 TEST(CloudFile, ReadsAnAsciiPcdWrittenByHand) {
   const TestFolder folder;
   const auto file =

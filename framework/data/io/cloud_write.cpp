@@ -49,10 +49,7 @@ std::string with_records(std::string header, const Arrays& arrays, std::size_t p
   return header;
 }
 
-}  // namespace
-
-std::string pcd_bytes(const Cloud& cloud) {
-  const Arrays arrays(cloud, {"normal_x", "normal_y", "normal_z"});
+std::string pcd_header(const Arrays& arrays, std::size_t points) {
   std::string fields = "FIELDS", sizes = "\nSIZE", types = "\nTYPE", counts = "\nCOUNT";
   for (const auto& [name, values] : arrays.floats) {
     fields += " " + name;
@@ -66,16 +63,12 @@ std::string pcd_bytes(const Cloud& cloud) {
     types += " U";
     counts += " 1";
   }
-  const std::string points = std::to_string(cloud.size());
-  return with_records("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + sizes +
-                          types + counts + "\nWIDTH " + points +
-                          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points +
-                          "\nDATA binary\n",
-                      arrays, cloud.size());
+  const std::string number = std::to_string(points);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + sizes + types + counts + "\nWIDTH " + number +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number + "\nDATA binary\n";
 }
 
-std::string ply_bytes(const Cloud& cloud, const std::string& comment) {
-  const Arrays arrays(cloud, {"nx", "ny", "nz"});
+std::string ply_header(const Arrays& arrays, std::size_t points, const std::string& comment) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   if (!comment.empty()) {
     std::string line = comment;
@@ -83,10 +76,28 @@ std::string ply_bytes(const Cloud& cloud, const std::string& comment) {
       if (c == '\n' || c == '\r') c = ' ';
     header += "comment " + line + "\n";
   }
-  header += "element vertex " + std::to_string(cloud.size()) + "\n";
+  header += "element vertex " + std::to_string(points) + "\n";
   for (const auto& [name, values] : arrays.floats) header += "property float " + name + "\n";
   if (arrays.ring) header += "property ushort ring\n";
-  return with_records(header + "end_header\n", arrays, cloud.size());
+  return header + "end_header\n";
 }
+
+constexpr Names pcd_names{"normal_x", "normal_y", "normal_z"}, ply_names{"nx", "ny", "nz"};
+
+}  // namespace
+
+std::string pcd_bytes(const Cloud& cloud) {
+  const Arrays arrays(cloud, pcd_names);
+  return with_records(pcd_header(arrays, cloud.size()), arrays, cloud.size());
+}
+
+std::string ply_bytes(const Cloud& cloud, const std::string& comment) {
+  const Arrays arrays(cloud, ply_names);
+  return with_records(ply_header(arrays, cloud.size(), comment), arrays, cloud.size());
+}
+
+std::string pcd_header(std::size_t points) { return pcd_header(Arrays(Cloud(), pcd_names), points); }
+
+std::string ply_header(std::size_t points, const std::string& comment) { return ply_header(Arrays(Cloud(), ply_names), points, comment); }
 
 }  // namespace plumb

@@ -36,6 +36,15 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
+/// Changes one byte of a file.
+inline void flip_byte(const std::filesystem::path& file, std::size_t at, char bits = 0x10) {
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekg(static_cast<std::streamoff>(at));
+  const char changed = static_cast<char>(bytes.get() ^ bits);
+  bytes.seekp(static_cast<std::streamoff>(at));
+  bytes.put(changed);
+}
+
 /// What the Error says that `action` throws; a word about it if it throws none.
 template <class Action>
 std::string refusal(Action&& action) {

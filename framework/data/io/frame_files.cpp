@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "plumb/data/io/file_identity.hpp"
 #include "plumb/data/io/file_text.hpp"
 
 namespace plumb::io {
@@ -73,10 +74,9 @@ Hash128 key_of(const FrameFile& file) {
                           "): restore the file or take it off the list");
   if (!S_ISREG(status.st_mode))
     refuse(file.path, "is not a regular file, so it is no frame: remove it");
-  const std::int64_t facts[] = {status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
   Hasher hasher;
   hasher.text(file.name);
-  hasher.bytes(facts, sizeof facts);
+  if (!add_identity(hasher, file.path)) refuse(file.path, "the frame cannot be read: restore the file or take it off the list");
   return hasher.hash();
 }
 

@@ -51,9 +51,10 @@ class CellIndex {
     return slots_[at];
   }
   void grow() {
-    std::vector<Slot> old(4 * slots_.size());
+    const int more = slots_.size() < std::size_t{1} << 18 ? 2 : 1;  // large tables less, or most of one may stay empty
+    std::vector<Slot> old(slots_.size() << more);
     old.swap(slots_);
-    shift_ -= 2;
+    shift_ -= more;
     for (const Slot& slot : old)
       if (slot.key != unused) find(slot.key, place_of(slot.key)) = slot;
   }

@@ -15,18 +15,18 @@ Eigen::Vector3d map_origin(const Trajectory& trajectory) {
       [](double v) { return 1000 * std::round(v / 1000); });
 }
 
-std::string map_bytes(const Cloud& cloud, const Eigen::Vector3d& origin, MapFormat format) {
+std::string map_header(std::size_t points, const Eigen::Vector3d& origin, MapFormat format) {
   std::string comment;
   if (!origin.isZero()) {
     comment = "origin";
     for (const double v : origin) comment += " " + std::to_string(static_cast<long long>(v));
     comment += ": add to coordinates for world coordinates [m]";
   }
-  if (format == MapFormat::ply) return ply_bytes(cloud, comment);
-  std::string bytes = pcd_bytes(cloud);
+  if (format == MapFormat::ply) return ply_header(points, comment);
+  std::string header = pcd_header(points);
   // A PCD may have comments anywhere in its header; before the first entry is where people look.
-  if (!comment.empty()) bytes.insert(bytes.find("VERSION"), "# " + comment + "\n");
-  return bytes;
+  if (!comment.empty()) header.insert(header.find("VERSION"), "# " + comment + "\n");
+  return header;
 }
 
 }  // namespace plumb

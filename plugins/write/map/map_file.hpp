@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "plumb/data/cloud.hpp"
 #include "plumb/data/trajectory.hpp"
 
 namespace plumb {
@@ -14,7 +13,8 @@ enum class MapFormat { ply, pcd };
 /// pose's place, rounded to whole kilometres [m].
 Eigen::Vector3d map_origin(const Trajectory& trajectory);
 
-/// The file's bytes. An origin other than zero is told in a comment: "origin X Y Z: add to coordinates for world coordinates [m]".
-std::string map_bytes(const Cloud& cloud, const Eigen::Vector3d& origin, MapFormat format);
+/// The file's beginning; 12 bytes a point follow: x, y and z as float32. An origin other than zero is told in a comment:
+/// "origin X Y Z: add to coordinates for world coordinates [m]".
+std::string map_header(std::size_t points, const Eigen::Vector3d& origin, MapFormat format);
 
 }  // namespace plumb

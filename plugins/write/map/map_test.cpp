@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "map_file.hpp"
 #include "plumb/data/io/cloud_file.hpp"
@@ -28,9 +31,23 @@ Cloud random_cloud(std::uint64_t seed, int points, double size) {
   return cloud;
 }
 
+void in_turn(std::size_t n, const std::function<void(std::size_t)>& body) {
+  for (std::size_t k = 0; k < n; ++k) body(k);
+}
+
+/// Adds one frame. Tiles that it does not meet are closed.
 void add_all(VoxelMap& map, const Cloud& cloud, const Pose& pose) {
   const auto cells = map.cells_of(cloud, pose);
-  for (std::size_t s = 0; s < VoxelMap::shards; ++s) map.add(cells, s);
+  map.add({&cells, 1}, in_turn, 1);
+}
+
+/// The points that the map writes.
+std::vector<Eigen::Vector3f> taken(VoxelMap& map) {
+  std::string bytes;
+  map.write(bytes);
+  std::vector<Eigen::Vector3f> points(bytes.size() / 12);
+  std::memcpy(static_cast<void*>(points.data()), bytes.data(), bytes.size());
+  return points;
 }
 
 using Cell = std::array<long, 3>;
@@ -42,8 +59,9 @@ TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
   VoxelMap map(0.5, Eigen::Vector3d::Zero());
   std::map<Cell, std::pair<Eigen::Vector3d, int>> expected;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto cloud = random_cloud(seed, 4000, 12);
-    const Pose pose(exp_rotation({0.1, 0.2, 0.3 * static_cast<double>(seed)}), {static_cast<double>(seed), -3, 1});
+    const auto cloud = random_cloud(seed, 4000, 30);
+    // To and fro, so that tiles are closed and opened again.
+    const Pose pose(exp_rotation({0.1, 0.2, 0.3 * static_cast<double>(seed)}), {seed % 2 ? 15.0 : -15.0, -3, 1});
     add_all(map, cloud, pose);
     for (std::size_t k = 0; k < cloud.size(); ++k) {
       const Eigen::Vector3d p = pose * cloud.point(k).cast<double>().eval();
@@ -52,9 +70,9 @@ TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
     }
   }
   ASSERT_NEAR(static_cast<double>(map.size()), static_cast<double>(expected.size()), 2);
-  const auto cloud = map.take();
-  for (std::size_t k = 0; k < cloud.size(); ++k) {
-    const Eigen::Vector3d p = cloud.point(k).cast<double>();
+  ASSERT_LT(map.open(), map.size()) << "the test sees no tile closed";
+  for (const auto& point : taken(map)) {
+    const Eigen::Vector3d p = point.cast<double>();
     const auto at = expected.find(cell_of(p, 0.5));
     ASSERT_NE(at, expected.end());
     EXPECT_LT((at->second.first / at->second.second - p).norm(), 2e-5);
@@ -67,9 +85,9 @@ TEST(VoxelMap, KeepsMillimetresAtUtmCoordinates) {
   Cloud one;
   one.add({1, 2, 3});
   add_all(map, one, Pose(Eigen::Quaterniond::Identity(), utm));
-  const auto cloud = map.take();
-  ASSERT_EQ(cloud.size(), 1u);
-  EXPECT_LT((cloud.point(0).cast<double>() - (utm + Eigen::Vector3d(1, 2, 3) - Eigen::Vector3d(412000, 5654000, 0))).norm(), 1e-4);
+  const auto points = taken(map);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_LT((points[0].cast<double>() - (utm + Eigen::Vector3d(1, 2, 3) - Eigen::Vector3d(412000, 5654000, 0))).norm(), 1e-4);
 }
 
 TEST(VoxelMap, TakesMorePointsInACellThanItCanCount) {
@@ -77,8 +95,9 @@ TEST(VoxelMap, TakesMorePointsInACellThanItCanCount) {
   Cloud cloud;
   for (int k = 0; k < 70000; ++k) cloud.add({0.25f, 0.5f, 0.75f});
   add_all(map, cloud, Pose());
+  add_all(map, random_cloud(1, 100, 3), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-200, 0, 0)));  // closes the first
   add_all(map, cloud, Pose());
-  EXPECT_LT((map.take().point(0) - Eigen::Vector3f(0.25f, 0.5f, 0.75f)).norm(), 1e-4f);
+  EXPECT_LT((taken(map).back() - Eigen::Vector3f(0.25f, 0.5f, 0.75f)).norm(), 1e-4f);
 }
 
 TEST(VoxelMap, LeavesOutAndCountsWhatIsTooFar) {
@@ -87,6 +106,42 @@ TEST(VoxelMap, LeavesOutAndCountsWhatIsTooFar) {
   cloud.add({1, 1, 1});
   cloud.add({20000, 0, 0});
   EXPECT_EQ(map.cells_of(cloud, Pose()).too_far, 1u);
+}
+
+TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceAndWheneverTilesAreClosed) {
+  const auto bytes_of = [](std::size_t together, std::size_t idle) {
+    VoxelMap map(0.1, Eigen::Vector3d::Zero());
+    std::vector<VoxelMap::FrameCells> frames;
+    for (std::uint64_t k = 0; k < 24; ++k) {  // there and back again
+      const double way = static_cast<double>(k < 12 ? k : 24 - k);
+      frames.push_back(map.cells_of(random_cloud(k, 2000, 8), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(3 * way, 0, 0))));
+      if (frames.size() < together && k < 23) continue;
+      map.add(frames, in_turn, idle);
+      frames.clear();
+    }
+    std::string bytes;
+    map.write(bytes);
+    return bytes;
+  };
+  const auto expected = bytes_of(24, 1000);  // nothing is closed
+  EXPECT_GT(expected.size(), 12u * 20000);
+  for (const std::size_t together : {1, 5, 16})
+    for (const std::size_t idle : {0, 1, 7}) EXPECT_TRUE(bytes_of(together, idle) == expected) << together << " " << idle;
+}
+
+TEST(VoxelMap, KeepsOpenWhatTheSensorSeesHoweverLongTheWay) {
+  const auto most_open = [](int frames) {
+    VoxelMap map(0.2, Eigen::Vector3d::Zero());
+    std::size_t most = 0;
+    for (int k = 0; k < frames; ++k) {
+      const auto cells = map.cells_of(random_cloud(static_cast<std::uint64_t>(k), 1000, 20),
+                                      Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(2.0 * k, 0, 0)));
+      map.add({&cells, 1}, in_turn, 4);
+      most = std::max(most, map.open());
+    }
+    return static_cast<double>(most);
+  };
+  EXPECT_LT(most_open(400), 1.2 * most_open(50));
 }
 
 TEST(MapOrigin, IsZeroNearAndWholeKilometresFarAway) {
@@ -159,10 +214,26 @@ struct Backwards : TestContext {
   }
 };
 
-TEST(WriteMap, GivesTheSameBytesInAnyOrderOfWork) {
+/// Two threads.
+struct Two : TestContext {
+  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+      for (std::size_t k; (k = next++) < n;) body(k);
+    };
+    std::thread other(work);
+    work();
+    other.join();
+  }
+};
+
+TEST(WriteMap, GivesTheSameBytesInAnyOrderOfWorkAndForAnyNumberOfThreads) {
   TestContext forwards;
   Backwards backwards;
-  EXPECT_EQ(document(40, {0, 0, 0}, "ply", forwards, 40), document(40, {0, 0, 0}, "ply", backwards, 40));
+  Two two;
+  const auto expected = document(100, {0, 0, 0}, "ply", forwards, 100);
+  EXPECT_TRUE(document(100, {0, 0, 0}, "ply", backwards, 100) == expected);
+  EXPECT_TRUE(document(100, {0, 0, 0}, "ply", two, 100) == expected);
 }
 
 TEST(WriteMap, RefusesATrajectoryOfOtherFrames) {

@@ -28,7 +28,7 @@ struct WriteMap : WholeStep {
   };
 
   static void describe(Declaration<WriteMap>& is) {
-    is.name("write.map").version(1).summary("Writes the map: all frames by their poses, one point a cell.");
+    is.name("write.map").version(2).summary("Writes the map: all frames by their poses, one point a cell.");
     is.input("frames", &In::frames, "the frames, opened one after another");
     is.input("trajectory", &In::trajectory, "their poses");
     is.output("document", &Out::document, "the file");
@@ -52,8 +52,9 @@ struct WriteMap : WholeStep {
     const Eigen::Vector3d origin = map_origin(*in.trajectory);
     VoxelMap map(params.leaf, origin);
     std::uint64_t points = 0, too_far = 0;
-    std::vector<VoxelMap::Cells> cells(block);
+    std::vector<VoxelMap::FrameCells> cells(block);
     std::vector<std::uint64_t> counts(block);
+    const auto parallel = [&](std::size_t n, const auto& body) { context.parallel(n, body); };
     for (std::size_t first = 0; first < frames; first += block) {
       const std::size_t n = std::min(block, frames - first);
       context.parallel(n, [&](std::size_t k) {
@@ -61,18 +62,20 @@ struct WriteMap : WholeStep {
         cells[k] = map.cells_of(frame->cloud, in.trajectory->T_world_frame[first + k]);
         counts[k] = frame->cloud.size();
       });
-      context.parallel(VoxelMap::shards, [&](std::size_t shard) {
-        for (std::size_t k = 0; k < n; ++k) map.add(cells[k], shard);
-      });
+      map.add({cells.data(), n}, parallel);
       for (std::size_t k = 0; k < n; ++k) points += counts[k], too_far += cells[k].too_far;
     }
+    cells = std::vector<VoxelMap::FrameCells>();
     context.count("points read for the map", points);
     context.count("points in the map", map.size());
     if (map.size() == 0)
       throw Error("no point is left for the map of " + std::to_string(frames) +
                   " frames: look at the ranges, leaves and filters before it (`counted:` says where points were dropped)");
     if (too_far) context.count("points too far from the map's origin dropped", too_far);
-    return {{params.name, map_bytes(map.take(), origin, params.format)}};
+    std::string bytes = map_header(map.size(), origin, params.format);
+    bytes.reserve(bytes.size() + 12 * map.size());
+    map.write(bytes);
+    return {{params.name, std::move(bytes)}};
   }
 };
 

@@ -1,69 +1,59 @@
 #pragma once
 /// A map of occupied cells that any number of points can be added to, in little memory.
 
-#include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "plumb/data/cloud.hpp"
 #include "plumb/geometry/pose.hpp"
+#include "tile.hpp"
 
 namespace plumb {
 
-/// One occupied cell: where it is, how many points it has had, and the sum of their places inside it. 24 bytes.
-///
-/// A place inside is counted in 65536ths of the cell's edge (1.5 um at 0.1 m), so sums are whole numbers: the mean does not depend on
-/// the order of the points, and nothing is lost far from the origin. After 65535 points a cell takes no more.
-struct Voxel {
-  std::uint64_t key = 0;  ///< 21 bits an axis, shifted to be positive; 0 is no cell
-  std::uint32_t count = 0;
-  std::array<std::uint32_t, 3> sum{};
-};
-
-/// A hash table of voxels with open addressing. Grows by half, so it is 57 to 85 % full.
-class VoxelTable {
- public:
-  explicit VoxelTable(std::size_t capacity = 64) : slots_(capacity) {}
-  /// Adds the voxel's points to the cell that it names.
-  void add(const Voxel& voxel);
-  /// Brings the place of a cell into the cache.
-  void prefetch(std::uint64_t key) const;
-  std::size_t size() const { return used_; }
-  const std::vector<Voxel>& slots() const { return slots_; }  ///< empty ones have key 0
-
- private:
-  void grow();
-  std::vector<Voxel> slots_;
-  std::size_t used_ = 0;
-};
-
+/// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should one come: what is open is what the
+/// sensor sees at present, however long the way. What is written depends on the points in each cell and their frames' order alone.
 class VoxelMap {
  public:
-  static constexpr std::size_t shards = 64;  ///< parts that are filled independently
+  using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
   /// Cells of edge length `leaf` [m], counted from `origin` [m, world].
-  VoxelMap(double leaf, const Eigen::Vector3d& origin) : leaf_(leaf), origin_(origin), tables_(shards) {}
+  VoxelMap(double leaf, const Eigen::Vector3d& origin) : leaf_(leaf), origin_(origin) {}
 
-  /// A frame's cells, ordered by shard; `first[s]` is the first one of shard s, first[shards] the number of cells.
-  struct Cells {
-    std::vector<Voxel> voxels;
-    std::array<std::uint32_t, shards + 1> first{};
+  /// The cells of one frame, tile by tile.
+  struct FrameCells {
+    struct Part {
+      std::uint64_t tile;
+      std::uint32_t first, end;  ///< of the cells
+    };
+    std::vector<Cell> cells;
+    std::vector<Part> parts;
     std::uint64_t too_far = 0;  ///< points more than a million cells from the origin, left out
   };
   /// The cells of a cloud under its pose. Safe from several threads.
-  Cells cells_of(const Cloud& cloud, const Pose& T_world_cloud) const;
+  FrameCells cells_of(const Cloud& cloud, const Pose& T_world_cloud) const;
 
-  /// Adds one shard of a frame's cells. Different shards may be filled at the same time; the result depends on each shard's order alone.
-  void add(const Cells& cells, std::size_t shard);
+  /// Adds frames in their order, tiles in parallel; then closes the tiles that none of the last `idle` frames has met.
+  void add(std::span<const FrameCells> frames, const Parallel& parallel, std::size_t idle = 32);
 
-  std::size_t size() const;
-  /// The mean of each cell, relative to the origin [m], in an order that depends on the additions alone. Frees the cells as it goes.
-  Cloud take();
+  std::size_t size() const;      ///< cells
+  std::size_t open() const;      ///< cells of tiles that are open
+  /// Appends the mean of each cell, relative to the origin [m], as three float32 a point, by tile and place. Frees the cells as it goes.
+  void write(std::string& bytes);
 
  private:
+  struct Entry {
+    Tile tile;
+    std::uint64_t last = 0;  ///< frame that met it
+  };
   double leaf_;
   Eigen::Vector3d origin_;
-  std::vector<VoxelTable> tables_;
+  std::unordered_map<std::uint64_t, Entry> tiles_;
+  std::vector<Entry*> open_;  ///< tiles that are not closed
+  std::uint64_t frames_ = 0;
 };
 
 }  // namespace plumb

@@ -6,7 +6,7 @@ import re
 from plumb_test import (BUILD, CAR, CASCADE, PLUMB, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence,
                         step_names)
 
-COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate", "compare"]
+COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate", "compare", "cache"]
 INPUT = ["--set", "input=."]  # checking reads no data, but what it names must be there
 
 
@@ -19,14 +19,14 @@ def test_each_command_has_help_with_its_options(folder):
     expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
                 "graph": ["mermaid", "dot"], "inspect": ["--json"], "schema": ["--output"],
                 "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
-                "compare": ["--variant", "--input", "--metric", "--time", "--json"]}
+                "compare": ["--variant", "--input", "--metric", "--time", "--json", "--store"], "cache": ["verify", "prune", "--store", "Example"]}
     for command in COMMANDS:
         plumb(command, "--help").has("Usage: plumb " + command, *expected.get(command, []))
 
 
 def test_a_wrong_command_line_exits_with_2(folder):
     for arguments in ([], ["fly"], ["run"], ["run", CASCADE], ["check"], ["check", CASCADE, "--fast"], ["inspect"],
-                      ["graph", CASCADE, "--format", "png"], ["evaluate", "a"], ["simulate"],
+                      ["graph", CASCADE, "--format", "png"], ["evaluate", "a"], ["simulate"], ["cache", "fly"],
                       ["run", CASCADE, "-o", folder / "out", "--threads", "many"]):
         said = plumb(*arguments, code=WRONG_COMMAND_LINE)
         assert said.err.strip() and not said.out, said

@@ -100,8 +100,9 @@ def test_a_folder_that_is_no_store_and_one_of_a_later_program(folder):
     (folder / "thesis/a.tex").write_text("mine")
     refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no store")
     (folder / "store").mkdir()
-    (folder / "store/plumb-store").write_text("plumb store 2\n")
+    (folder / "store/plumb-store").write_text("plumb store 3\n")
     refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")
+    refused(plumb("cache", "verify", "--store", folder / "store", code=WRONG_INPUT), "another format")
     assert not (folder / "out").exists()
 
 
@@ -122,3 +123,58 @@ def test_a_full_disk_costs_the_keeping_alone(folder):
         assert files_of(folder / "full") == expected == files_of(folder / "again")
     finally:
         os.system(f"umount {small}")
+
+
+LAST_GATE = "fine.reach=1.5m,1m,0.7m,0.5m,0.4m"
+
+
+def test_explain_names_the_first_difference(folder):
+    said, _, _ = run(folder, "first", "--explain", seen=sequence("street"))
+    said.has("segments: made, all", "this store knows no earlier run of it")
+    said, _, _ = run(folder, "again", "--explain")
+    said.has("segments: reused, all", "ranged: passes through\n", "fine.matches, pass 1: reused, all")
+    said, _, made = run(folder, "gate", "--set", LAST_GATE, "--explain")
+    lines = said.out.splitlines()
+    explained = {line.split(":")[0]: line for line in lines if ": made" in line or ": reused" in line or " made: " in line}
+    changed = next(line for line in lines if line.startswith("fine.matches, pass 5"))
+    assert "max was 0.5 m, is 0.4 m" in changed and ": made" in changed, said
+    for step, line in explained.items():
+        early = step in ("segments", "esf", "fpfh", "neighbours") or step.startswith(("drift.", "coarse.", "fine.")) and "pass 5" not in step and not step.endswith(
+            ("pass 6", "pass 7", "pass 8"))
+        assert not early or "reused" in line, line
+    assert "input 'matches'" in explained["fine.solved, pass 5"]
+    run(folder, "other", "--set", "max_range=40m")
+    said, _, _ = run(folder, "back", "--explain")
+    said.has("ranged: passes through: max was 40 m, is 300 m")
+
+
+def test_two_runs_at_once_on_one_store(folder):
+    expected = made_anew(folder, "without")
+    commands = [[PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", folder / "store", "-o", folder / out] for out in ("a", "b")]
+    runs = [subprocess.Popen([str(w) for w in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for command in commands]
+    for process in runs:
+        _, said = process.communicate(timeout=600)
+        assert process.returncode == 0 and "damaged" not in said, said
+    assert files_of(folder / "a") == expected == files_of(folder / "b")
+    plumb("cache", "verify", "--store", folder / "store")
+
+
+def test_verify_inputs_looks_into_files_whose_time_stayed(folder):
+    seen = copy_of("street", folder)
+    run(folder, "first", "--verify-inputs", seen=seen)
+    _, _, again = run(folder, "again", "--verify-inputs", seen=seen)
+    assert again <= 2
+    frame = sorted((seen / "frames").iterdir())[3]
+    times, data = frame.stat(), bytearray(frame.read_bytes())
+    data[-2] ^= 0x40  # of the last point
+    frame.write_bytes(data)
+    os.utime(frame, ns=(times.st_atime_ns, times.st_mtime_ns))
+    _, _, made = run(folder, "changed", "--verify-inputs", seen=seen)
+    assert made > again, "the change was not noticed"
+
+
+def test_bounded_memory_leaves_the_same_bytes(folder):
+    expected = made_anew(folder, "without")
+    for threads in ("1", "2"):
+        run(folder, "bounded" + threads, "--memory", "256MiB", "--threads", threads, "--fresh")
+        assert files_of(folder / ("bounded" + threads)) == expected

@@ -1,0 +1,152 @@
+/// run.lock.yaml: YAML for people and tools, of which every line stands where it must, so that it is read back byte by byte.
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "plumb/data/error.hpp"
+#include "plumb/engine/quoted.hpp"
+#include "plumb/engine/run_record.hpp"
+#include "plumb/pipeline/foreign_file.hpp"
+
+namespace plumb {
+namespace {
+
+std::string digest_of(const std::string& text) {
+  Hasher hasher;
+  hasher.text(text);
+  return hasher.hash().text();
+}
+
+/// The lines of a lock, each of which is expected.
+class Reader {
+ public:
+  Reader(std::string file, const std::string& text) : file_(std::move(file)), in_(text) { step(); }
+
+  bool at(const std::string& begin) const { return !over_ && line_.starts_with(begin); }
+  /// What follows `begin` in this line; goes on to the next.
+  std::string take(const std::string& begin) {
+    if (!at(begin)) fail("'" + begin + "' is expected");
+    std::string rest = line_.substr(begin.size());
+    step();
+    return rest;
+  }
+  std::string take_quoted(const std::string& begin) {
+    const auto text = from_quotes(take(begin));
+    if (!text) fail("text is expected before");
+    return *text;
+  }
+  template <class T>
+  T take_number(const std::string& begin) {
+    return number<T>(take(begin));
+  }
+  template <class T>
+  T number(const std::string& text) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) fail("a number is expected before, not '" + text + "'");
+    return value;
+  }
+  Hash128 take_hash(const std::string& begin) {
+    const std::string text = take(begin);
+    Hash128 hash;
+    if (text.size() != 32 || std::from_chars(text.data(), text.data() + 16, hash.high, 16).ptr != text.data() + 16 ||
+        std::from_chars(text.data() + 16, text.data() + 32, hash.low, 16).ptr != text.data() + 32)
+      fail("32 hexadecimal digits are expected before, not '" + text + "'");
+    return hash;
+  }
+  bool over() const { return over_; }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(file_ + ":" + std::to_string(number_) + ": " + why + "; the record is damaged or of another Plumb: run the pipeline itself to get a new one");
+  }
+
+ private:
+  void step() {
+    ++number_;
+    over_ = !std::getline(in_, line_);
+  }
+  std::string file_;
+  std::istringstream in_;
+  std::string line_;
+  int number_ = 0;
+  bool over_ = false;
+};
+
+/// {use: match.nearest, version: 1, module: HASH}
+StepRecord step_of(Reader& reader) {
+  const std::string line = reader.take("  ");
+  const auto use = line.find(": {use: "), version = line.find(", version: "), module = line.find(", module: ");
+  const auto end = line.size() - 1;
+  if (use == line.npos || version == line.npos || version < use || line.back() != '}') reader.fail("a step is expected before");
+  StepRecord step;
+  step.path = line.substr(0, use);
+  step.use = line.substr(use + 8, version - use - 8);
+  const auto from = version + 11, to = module == line.npos ? end : module;
+  if (to < from) reader.fail("a step is expected before");
+  step.version = reader.number<int>(line.substr(from, to - from));
+  if (module != line.npos) step.module = line.substr(module + 10, end - module - 10);
+  return step;
+}
+
+}  // namespace
+
+std::string lock_text(const RunRecord& record) {
+  std::ostringstream out;
+  out << pipeline::lock_first_line << "\nplumb: " << record.plumb << "\nabi: " << in_quotes(record.abi) << "\nlibrary: " << in_quotes(record.library)
+      << "\nname: " << in_quotes(record.name) << "\nfiles:\n";
+  for (const std::string& file : record.files) out << "  - " << in_quotes_where_needed(file) << '\n';
+  out << "steps:\n";
+  for (const StepRecord& step : record.steps) {
+    out << "  " << step.path << ": {use: " << step.use << ", version: " << step.version;
+    if (!step.module.empty()) out << ", module: " << step.module;
+    out << "}\n";
+  }
+  out << "inputs:\n";
+  for (const InputRecord& input : record.inputs) {
+    out << "  - path: " << in_quotes(input.path) << "\n    files: " << input.files << "\n    bytes: " << input.bytes << "\n    digest: " << input.digest.text() << '\n';
+    if (input.content) out << "    content: " << input.content->text() << '\n';
+  }
+  out << "pipeline_digest: " << digest_of(record.pipeline) << "\npipeline: |\n";
+  std::istringstream lines(record.pipeline);
+  for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
+  return out.str();
+}
+
+RunRecord read_lock(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) throw Error(file.string() + ": cannot be read; give the run.lock.yaml of a run");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!text.starts_with(pipeline::lock_first_line)) throw Error(file.string() + ": is no record of a run; give the run.lock.yaml of one");
+  Reader reader(file.string(), text);
+  reader.take(pipeline::lock_first_line);
+  RunRecord record;
+  record.plumb = reader.take("plumb: ");
+  record.abi = reader.take_quoted("abi: ");
+  record.library = reader.take_quoted("library: ");
+  record.name = reader.take_quoted("name: ");
+  reader.take("files:");
+  while (reader.at("  - ")) {
+    const std::string name = reader.take("  - ");
+    record.files.push_back(from_quotes(name).value_or(name));
+  }
+  reader.take("steps:");
+  while (reader.at("  ")) record.steps.push_back(step_of(reader));
+  reader.take("inputs:");
+  while (reader.at("  - path: ")) {
+    InputRecord& input = record.inputs.emplace_back();
+    input.path = reader.take_quoted("  - path: ");
+    input.files = reader.take_number<std::size_t>("    files: ");
+    input.bytes = reader.take_number<std::uint64_t>("    bytes: ");
+    input.digest = reader.take_hash("    digest: ");
+    if (reader.at("    content: ")) input.content = reader.take_hash("    content: ");
+  }
+  const Hash128 digest = reader.take_hash("pipeline_digest: ");
+  reader.take("pipeline: |");
+  while (!reader.over()) record.pipeline += reader.take("  ") + "\n";
+  if (const std::string is = digest_of(record.pipeline); is != digest.text())
+    throw Error(file.string() + ": its pipeline was changed after the run: its digest was " + digest.text() + ", is " + is +
+                "; to run a changed pipeline, give the pipeline itself");
+  return record;
+}
+
+}  // namespace plumb

@@ -1,0 +1,95 @@
+#include "plumb/store/blob_file.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+
+namespace plumb {
+namespace fs = std::filesystem;
+namespace {
+
+std::optional<Hash128> key_of(const std::string& name) {
+  if (name.size() != 32) return std::nullopt;
+  Hash128 key;
+  const auto part = [&](std::size_t at, std::uint64_t& to) { return std::from_chars(&name[at], &name[at] + 16, to, 16).ptr == &name[at] + 16; };
+  if (!part(0, key.high) || !part(16, key.low) || key.text() != name) return std::nullopt;
+  return key;
+}
+
+}  // namespace
+
+fs::path blob_file(const fs::path& store, const Hash128& key) {
+  const std::string name = key.text();
+  return store / "blobs" / name.substr(0, 2) / name;
+}
+
+void for_each_blob(const fs::path& store, const std::function<void(const Hash128&, const fs::path&)>& visit) {
+  std::error_code error;
+  for (fs::directory_iterator part(store / "blobs", error), end; !error && part != end; part.increment(error)) {
+    std::error_code gone;  // a folder that is no folder, or went away
+    for (fs::directory_iterator file(part->path(), gone); !gone && file != end; file.increment(gone))
+      if (const auto key = key_of(file->path().filename().string())) visit(*key, file->path());
+  }
+}
+
+std::optional<BlobHead> head_in(const fs::path& file, const Hash128& key) {
+  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) return std::nullopt;
+  std::array<char, blob_head_size> bytes;
+  const ssize_t n = read(from, bytes.data(), bytes.size());
+  close(from);
+  return n > 0 ? read_head(key, {bytes.data(), static_cast<std::size_t>(n)}) : std::nullopt;
+}
+
+bool write_whole(const fs::path& file, std::string_view bytes) {
+  const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (to < 0) return false;
+  bool good = true;
+  while (good && !bytes.empty()) {
+    const ssize_t n = write(to, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    good = n > 0;
+    if (good) bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  int why = errno;
+  if (close(to) != 0 && good) good = false, why = errno;
+  if (!good) unlink(file.c_str()), errno = why;
+  return good;
+}
+
+bool replace_whole(const fs::path& file, std::string_view bytes) {
+  const fs::path fresh = file.string() + "." + std::to_string(getpid());
+  unlink(fresh.c_str());
+  if (!write_whole(fresh, bytes)) return false;
+  if (rename(fresh.c_str(), file.c_str()) == 0) return true;
+  const int why = errno;
+  unlink(fresh.c_str()), errno = why;
+  return false;
+}
+
+MappedFile::MappedFile(const fs::path& file) {
+  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) return;
+  struct stat at{};
+  if (fstat(from, &at) == 0 && S_ISREG(at.st_mode)) {
+    there_ = true;
+    size_ = static_cast<std::size_t>(at.st_size);
+  }
+  if (size_ > 0) {
+    begin_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, from, 0);  // all of it is read twice, at once
+    if (begin_ == MAP_FAILED) begin_ = nullptr, size_ = 0, there_ = false;
+    else madvise(begin_, size_, MADV_SEQUENTIAL);
+  }
+  close(from);
+}
+
+MappedFile::~MappedFile() {
+  if (begin_) munmap(begin_, size_);
+}
+
+}  // namespace plumb

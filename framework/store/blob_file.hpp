@@ -1,0 +1,46 @@
+#pragma once
+/// The files of a store: where a result lies, and how it is written whole, mapped and listed.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "plumb/data/hash.hpp"
+#include "plumb/store/blob.hpp"
+
+namespace plumb {
+
+/// STORE/blobs/4f/4f0c...e1
+std::filesystem::path blob_file(const std::filesystem::path& store, const Hash128& key);
+
+/// Calls `visit` for each result of a store; what is called otherwise is left alone.
+void for_each_blob(const std::filesystem::path& store, const std::function<void(const Hash128&, const std::filesystem::path&)>& visit);
+
+/// What a blob's first bytes say; none when it is not there or no blob.
+std::optional<BlobHead> head_in(const std::filesystem::path& file, const Hash128& key);
+
+/// Writes a new file whole. False, with errno, when the disk does not take it; nothing is left then.
+bool write_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// Puts a file in the place of another, or of none, at once. False, with errno, when the disk does not take it.
+bool replace_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// A file's bytes where the system keeps them in memory, for as long as this object lives. A file that is removed or replaced meanwhile stays as it was.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::filesystem::path& file);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  bool there() const { return there_; }  ///< false: no such file, or it cannot be read
+  std::string_view bytes() const { return {static_cast<const char*>(begin_), size_}; }
+
+ private:
+  void* begin_ = nullptr;
+  std::size_t size_ = 0;
+  bool there_ = false;
+};
+
+}  // namespace plumb

@@ -1,0 +1,150 @@
+"""Other processes and other machines: the same bytes, whatever is killed."""
+import os
+import subprocess
+import time
+
+from one_node_slurm import OneNodeSlurm, processes_with, wait_until
+from plumb_test import CASCADE, PLUMB, SOURCE, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence
+
+PROFILE = "partition: main\ncpus: 1\nchunk: 8\nsubmit_above: 0 s   # everything goes to the cluster\npoll: 0.3 s\n"
+
+
+def words(folder, out, *options):
+    return ["run", CASCADE, "--set", f"input={sequence('street')}", "--set", "ranges.frames=10", *options, "-o", folder / out]
+
+
+def expected(folder):
+    plumb(*words(folder, "expected", "--store", "none"))
+    return files_of(folder / "expected")
+
+
+def counted(said):
+    return [line for line in said.out.splitlines() if line.startswith("counted: ")]
+
+
+def blobs(store):
+    return {p: p.stat().st_ino for p in (store / "blobs").rglob("*") if p.is_file()}
+
+
+def test_workers_leave_the_same_bytes_and_counts(folder):
+    bytes_ = expected(folder)
+    plain = plumb(*words(folder, "plain", "--store", "none"))
+    for threads in ("1", "2"):
+        said = plumb(*words(folder, "out", "--store", folder / ("store" + threads), "--isolate", "--threads", threads))
+        assert files_of(folder / "out") == bytes_
+        assert counted(said) == counted(plain)
+    first = blobs(folder / "store2")
+    plumb(*words(folder, "out", "--store", folder / "store2"))
+    assert files_of(folder / "out") == bytes_ and blobs(folder / "store2") == first
+    assert not processes_with("worker", folder), "a worker outlived its run"
+
+
+def test_workers_end_when_their_driver_is_killed(folder):
+    command = [str(w) for w in (PLUMB, *words(folder, "out", "--store", folder / "store", "--isolate"))]
+    driver = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    wait_until(lambda: processes_with(" worker ", folder), why="a worker")
+    driver.kill()
+    driver.wait()
+    wait_until(lambda: not processes_with(" worker ", folder), seconds=10, why="the end of the workers")
+    plumb(*words(folder, "out", "--store", folder / "store", "--isolate"))
+    assert files_of(folder / "out") == expected(folder)
+
+
+def test_workers_that_are_killed_are_replaced(folder):
+    command = [str(w) for w in (PLUMB, *words(folder, "out", "--store", folder / "store", "--isolate"))]
+    driver = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    killed = 0
+    while driver.poll() is None and killed < 3:
+        for pid in processes_with(" worker ", folder / "store")[:1]:
+            os.kill(pid, 9)
+            killed += 1
+        time.sleep(0.4)
+    assert driver.wait() == 0 and killed > 0
+    assert files_of(folder / "out") == expected(folder)
+
+
+def slurm_run(folder, slurm, out, store):
+    (folder / "profile.yaml").write_text(PROFILE)
+    command = words(folder, out, "--store", folder / store, "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
+    return subprocess.Popen([str(w) for w in (PLUMB, *command)], env=slurm.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def ends_well(run):
+    _, said = run.communicate(timeout=900)
+    assert run.returncode == 0, said
+
+
+def test_slurm_leaves_the_same_bytes_when_processes_and_the_node_are_killed(folder):
+    with OneNodeSlurm(folder / "slurm") as slurm:
+        run = slurm_run(folder, slurm, "out", "store")
+        for _ in range(3):
+            chunk = wait_until(lambda: processes_with("--task", folder / "store"), why="a chunk's process")
+            for pid in processes_with(" worker ", folder / "store"):
+                if pid != run.pid:
+                    try:
+                        os.kill(pid, 9)
+                    except ProcessLookupError:
+                        pass
+            wait_until(lambda: not set(chunk) & set(processes_with("--task", folder / "store")), why="the end of the chunk")
+        slurm.kill_node()
+        time.sleep(1)
+        slurm.start_node()
+        ends_well(run)
+        assert files_of(folder / "out") == expected(folder)
+        assert not list((folder / "store/jobs").iterdir())
+
+
+def test_a_driver_of_slurm_that_is_killed_takes_up_where_it_was(folder):
+    with OneNodeSlurm(folder / "slurm") as slurm:
+        run = slurm_run(folder, slurm, "out", "store")
+        for _ in range(2):
+            wait_until(lambda: processes_with("--task", folder / "store"), why="a chunk's process")
+            run.kill()
+            run.wait()
+            before = blobs(folder / "store")
+            run = slurm_run(folder, slurm, "out", "store")
+            time.sleep(1)
+        ends_well(run)
+        after = blobs(folder / "store")
+        assert all(after[p] == inode for p, inode in before.items()), "a finished item was made again"
+        assert files_of(folder / "out") == expected(folder)
+
+
+def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
+    good = words(folder, "out", "--store", folder / "store")
+    profile = folder / "profile.yaml"
+
+    def told(text, *sentences, code=WRONG_INPUT):
+        profile.write_text(text)
+        plumb(*good, "--executor", "slurm", "--executor-profile", profile, code=code).has(*sentences)
+
+    told("partiton: main\n", "profile.yaml:1:1:", "no key 'partiton'", "Did you mean 'partition'")
+    told("chunk: 0\n", "profile.yaml:1:8:", "'chunk'", "1")
+    told("poll: 3\n", "profile.yaml:1:7:", "no unit")
+    told("memory: much\n", "profile.yaml:1:9:", "memory much", "4GiB")
+    refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "there is no such file")
+    refused(plumb(*good, "--executor-profile", profile, code=WRONG_INPUT), "--executor slurm, which is not given")
+    refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--isolate")
+    refused(plumb(*words(folder, "out", "--store", "none", "--isolate"), code=WRONG_INPUT), "a store is needed")
+    refused(plumb(*words(folder, "out", "--store", "none", "--memory", "2GiB"), code=WRONG_INPUT), "a store is needed")
+    refused(plumb(*good, "--memory", "2 apples", code=WRONG_INPUT), "--memory", "GiB")
+    refused(plumb(*good, "--memory", "1MiB", code=WRONG_INPUT), "too little")
+    refused(plumb("worker", "--store", folder / "s2", code=WRONG_INPUT), "not by hand")
+    plumb(*good, "--executor", "condor", code=WRONG_COMMAND_LINE).has("condor")
+    assert not (folder / "out").exists()
+
+
+def test_a_call_that_crashes_on_the_cluster_is_set_aside_after_two_tries(folder):
+    from importlib import util
+    spec = util.spec_from_file_location("faults", SOURCE / "tests/end_to_end/cases/faults.py")
+    faults = util.module_from_spec(spec)
+    spec.loader.exec_module(faults)
+    with OneNodeSlurm(folder / "slurm") as slurm:
+        (folder / "profile.yaml").write_text(PROFILE)
+        variables = {"SLURM_CONF": slurm.environment["SLURM_CONF"]}
+        options = ["--executor", "slurm", "--executor-profile", folder / "profile.yaml"]
+        said = plumb("--plugin-path", faults.MODULES, "run", faults.pipeline(folder, "drop"), "--set", f"input={sequence('street')}", "--set",
+                     "bad.deed=segfault", "--store", folder / "store", *options, "-o", folder / "out", environment=variables)
+        said.has("edge 1-2: its process was ended by signal 11", "is dropped (on_error: drop)")
+    faults.run(folder, "here", "segfault", "--isolate", on_error="drop", store="other", code=0)
+    assert files_of(folder / "out")["trajectory.tum"] == files_of(folder / "here")["trajectory.tum"]
