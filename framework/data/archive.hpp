@@ -4,6 +4,7 @@
 /// values begins at a multiple of 16 bytes from the start, so that it can be read where a file is mapped.
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -82,10 +83,29 @@ struct HashSink {
 };
 struct TextSink {
   std::string text;
+  std::function<void(std::string_view)> take;  ///< if given: gets the bytes as they come, so that `text` never holds much
+  std::size_t taken = 0;
+
   void put(const void* data, std::size_t size) {
+    if (take && text.size() + size > most_held) {
+      flush();
+      if (size > most_held) return pass({static_cast<const char*>(data), size});
+    }
     text.append(static_cast<const char*>(data), size);
   }
-  void align() { text.append(array_padding(text.size()), '\0'); }
+  void align() { text.append(array_padding(taken + text.size()), '\0'); }
+  /// Hands on what `text` holds.
+  void flush() {
+    pass(text);
+    text.clear();
+  }
+
+ private:
+  static constexpr std::size_t most_held = std::size_t{4} << 20;
+  void pass(std::string_view bytes) {
+    take(bytes);
+    taken += bytes.size();
+  }
 };
 
 /// Reads what an OutArchive<TextSink> wrote; `bytes` are all of it, from the start. Throws Error when they end too early.

@@ -11,6 +11,12 @@ namespace plumb {
 
 class StepRun;
 
+/// What a call needs is not as it should be; the call itself is not to blame.
+class MachineryError : public Error {
+ public:
+  using Error::Error;
+};
+
 struct Counted {
   std::string what;
   std::uint64_t n = 0;
@@ -29,7 +35,9 @@ struct Spent {
 struct Reply {
   std::uint64_t item = 0;
   std::string fault;  ///< a sentence that names step and item; empty when the call went well: then its result is in the store
-  bool crashed = false;  ///< the process did not survive the call
+  bool crashed = false;    ///< the process did not survive the call
+  bool outside = false;    ///< it was killed from outside: the call need not be to blame
+  bool machinery = false;  ///< not the call failed but what it needs: the store, the worker's modules, the input's state
   std::vector<Counted> counts;
   std::vector<PassedCounts> passed;
   std::vector<std::string> warnings;       ///< each begins with the step's path
@@ -38,7 +46,6 @@ struct Reply {
   std::vector<std::vector<Hash128>> lazy;  ///< by output: the keys of what it makes when asked
   std::uint64_t process = 0;
   double seconds = 0;                      ///< wall clock
-  std::uint64_t peak_bytes = 0;            ///< of the process so far
 };
 
 /// Makes calls in other processes; they find what they need in the store and leave there what they made.
@@ -73,7 +80,7 @@ void fields(Archive& a, T& s) {
 template <class Archive, class T>
   requires std::is_same_v<std::remove_const_t<T>, Reply>
 void fields(Archive& a, T& r) {
-  a(r.item, r.fault, r.crashed, r.counts, r.passed, r.warnings, r.spent, r.result, r.lazy, r.process, r.seconds, r.peak_bytes);
+  a(r.item, r.fault, r.crashed, r.outside, r.machinery, r.counts, r.passed, r.warnings, r.spent, r.result, r.lazy, r.process, r.seconds);
 }
 
 }  // namespace plumb

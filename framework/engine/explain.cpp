@@ -23,6 +23,7 @@ std::string Explained::text() const {
   const std::string because = why.empty() ? "" : ": " + why;
   if (passes) return name + "passes through" + because;
   const std::string all = " of " + std::to_string(made + reused);
+  if (made + reused == 0) return name + "has no items" + because;
   if (made == 0) return name + "reused" + (reused == 1 ? "" : ", all " + std::to_string(reused)) + because;
   return name + (reused == 0 ? "made" + (made == 1 ? std::string() : ", all " + std::to_string(made)) : std::to_string(made) + all + " made") + because;
 }

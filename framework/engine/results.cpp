@@ -62,15 +62,6 @@ std::size_t Results::size_of(const Hash128& key) const {
   return at == facts_.end() ? 0 : at->second.bytes;
 }
 
-void Results::forget(const Hash128& key) {
-  const std::lock_guard lock(mutex_);
-  const auto at = index_.find(key);
-  if (at == index_.end()) return;
-  bytes_ -= at->second->bytes;
-  entries_.erase(at->second);
-  index_.erase(at);
-}
-
 void Results::insert(const Hash128& key, const SharedResult& result, bool in_store) {
   const std::size_t bytes = memory_of(*result);
   std::list<Entry> gone;  // declared before the lock: what leaves is freed after it

@@ -4,9 +4,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "plumb/store/store.hpp"
 
@@ -37,8 +35,6 @@ class Results {
   void made_elsewhere(const Hash128& key, const std::string& step);
   /// Whether the result can come back from the store, so that nobody need hold it.
   bool in_store(const Hash128& key) const;
-  /// Forgets a result in memory; the store keeps it.
-  void forget(const Hash128& key);
   /// Memory that a result takes, if it was seen in this run; else 0.
   std::size_t size_of(const Hash128& key) const;
 

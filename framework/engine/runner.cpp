@@ -15,7 +15,7 @@ constexpr std::size_t mebibyte = std::size_t{1} << 20;
 
 /// What stays in memory of what the store has: little where memory is bounded, so that it does not grow with the trajectory.
 std::size_t memory_for_results(const RunOptions& options) {
-  return options.memory == 0 ? 1024 * mebibyte : std::max(options.memory / 16, 32 * mebibyte);
+  return options.memory == 0 ? 1024 * mebibyte : std::max(options.memory / 32, 16 * mebibyte);
 }
 
 /// For the calls that run at a time; the rest is for steps on whole collections and for the program itself.

@@ -44,7 +44,12 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
   const Source& source = inputs_[port].front();
   switch (input.access) {
     case Access::item:
-      add(source.run->key(source.output, input.type->grain == Grain::whole ? 0 : k));
+      if (plan_.description->kind == StepKind::fold && input.type->grain == Grain::frame) {  // sees them all, in order
+        add_number(source.run->count(source.output));
+        for (std::size_t n = 0; n < source.run->count(source.output); ++n) add(source.run->key(source.output, n));
+      } else {
+        add(source.run->key(source.output, input.type->grain == Grain::whole ? 0 : k));
+      }
       break;
     case Access::ends:
       add(source.run->key(source.output, edges_->list[k].i));

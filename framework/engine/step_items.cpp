@@ -81,7 +81,7 @@ void StepRun::make_items_here() {
     const Stopwatch watch(state_.books, plan_.path);
     {
       const std::lock_guard lock(mutex);
-      if (failed.size() >= most_failures) return;
+      if (failed.size() >= most_failures && plan_.on_error == OnError::stop) return;
     }
     try {
       kept_keys_[k] = call_key(k);
@@ -110,8 +110,11 @@ void StepRun::make_items_elsewhere() {
     state_.executor->make(*this, calls, [&](const Reply& reply) {
       book(reply);
       const std::size_t k = reply.item;
+      if (reply.machinery) throw NestedError(reply.fault);
       if (!reply.fault.empty()) failed.push_back({k, reply.fault});
+      else if (!has_result(k)) throw NestedError(title(k) + ": its result did not come into the store; is the folder the same for all processes?");
       else state_.results.made_elsewhere(kept_keys_[k], plan_.description->name);
+      if (failed.size() >= most_failures && plan_.on_error == OnError::stop) settle(failed);
     });
   const auto made = failed;
   for (const Failed& one : made)
@@ -124,8 +127,8 @@ void StepRun::make_items_elsewhere() {
 void StepRun::settle(std::vector<Failed> failed) {
   if (failed.empty()) return;
   std::sort(failed.begin(), failed.end(), [](const Failed& a, const Failed& b) { return a.item < b.item; });
-  const bool all = failed.size() >= most_failures && !state_.executor;
-  if (plan_.on_error == OnError::drop && !all) {
+  const bool all = failed.size() >= most_failures;
+  if (plan_.on_error == OnError::drop) {
     for (const Failed& one : failed) {
       state_.books.warn(plan_.path, one.sentence + "; " + item_name(one.item) + " is dropped (on_error: drop)");
       StoredResult empty;
@@ -153,8 +156,7 @@ SharedResult StepRun::fetch(std::size_t k) {
   const Stopwatch watch(state_.books, plan_.path);
   StoredResult said;
   auto outputs = call(k, &said);
-  SharedResult pin, made = std::make_shared<const StoredResult>(result_of(outputs, std::move(said)));
-  kept(kept_keys_[k], StoredResult(*made), pin);
+  SharedResult pin, made = kept(kept_keys_[k], result_of(outputs, std::move(said)), pin);
   Stopwatch::item(item_name(k), state_.pass, false);
   return made;
 }

@@ -70,18 +70,21 @@ StoredResult StepRun::result_of(std::vector<PortOutput>& outputs, StoredResult s
   return said;
 }
 
-/// Keeps a result and says who must hold it: `pin`, unless the store took it.
-Hash128 StepRun::kept(const Hash128& key, StoredResult result, SharedResult& pin) {
+/// Keeps a result and returns it; it is `pin` too, to be held, unless the store took it.
+SharedResult StepRun::kept(const Hash128& key, StoredResult result, SharedResult& pin) {
   Results& results = state_.results;
   if (results.store()) pin = results.keep(key, std::move(result), plan_.description->name);
   else if (keeping_ == Keeping::remembered) pin = results.remember(key, std::move(result));
   else pin = std::make_shared<const StoredResult>(std::move(result));
+  SharedResult made = pin;
   if (results.in_store(key)) pin.reset();
-  return key;
+  return made;
 }
 
-void StepRun::make_one(std::size_t k, Reply& reply) {
+void StepRun::make_one(std::size_t k, const Hash128& expected, Reply& reply) {
   const Hash128 key = call_key(k);
+  if (key != expected)
+    throw MachineryError(title(k) + ": what it works on is not the same here as in the run; did an input change meanwhile, or has this worker other plugins?");
   StoredResult said;
   auto outputs = call(k, &said);
   for (const auto& [what, n] : said.counts) reply.counts.push_back({what, n});
@@ -89,7 +92,7 @@ void StepRun::make_one(std::size_t k, Reply& reply) {
   const StoredResult result = result_of(outputs, std::move(said));
   if (lazy()) reply.result = blob_of(key, result, plan_.description->name);
   else if (!state_.results.store()->put(key, result, plan_.description->name))
-    throw Error(title(k) + ": its result cannot be kept in the store (" + state_.results.store()->fault() + "); make room, or name another with --store");
+    throw MachineryError(title(k) + ": its result cannot be kept in the store (" + state_.results.store()->fault() + "); make room, or name another with --store");
 }
 
 /// What a call said in another process, as if it had been made here, and that it was made.
@@ -103,6 +106,7 @@ void StepRun::book(const Reply& reply) {
   if (reply.process) state_.books.memory().add_process(static_cast<int>(reply.process));
   const auto end = Bookkeeping::Clock::now();
   const auto seconds = std::chrono::duration_cast<Bookkeeping::Clock::duration>(std::chrono::duration<double>(reply.seconds));
+  if (!reply.fault.empty()) return state_.books.add_time(plan_.path, own);
   state_.books.item({plan_.path, item_name(reply.item), state_.pass, false, end - seconds, end, own, static_cast<int>(reply.process), 0});
 }
 
@@ -112,7 +116,7 @@ void StepRun::book_passed(const PassedCounts& passed) {
 }
 
 bool StepRun::adopt_result(std::size_t k) {
-  const Hash128& key = itemwise() ? kept_keys_[k] : whole_key_;
+  const Hash128& key = key_of_call(k);
   Results& results = state_.results;
   if (!results.store()->contains(key)) return false;
   results.made_elsewhere(key, plan_.description->name);
@@ -128,7 +132,8 @@ void StepRun::require_in_store() const {
     for (const Hash128& key : kept_keys_) all &= results.in_store(key);
   else
     all = results.in_store(whole_key_);
-  if (!all) throw Error("the store does not take results (" + results.store()->fault() + "), and workers need them from there; make room, or name another with --store");
+  if (!all) throw Error("step '" + plan_.path + "': not all of its results are in the store, from which workers take them" +
+                        (results.store()->fault().empty() ? std::string("; run again") : " (" + results.store()->fault() + "); make room, or name another with --store"));
 }
 
 std::size_t StepRun::count(int output) const {
@@ -162,7 +167,8 @@ std::size_t StepRun::size_of(int output, std::size_t k) {
   if (itemwise()) return keeping_ == Keeping::passing ? expected_bytes(k) : state_.results.size_of(kept_keys_[k]);
   if (plan_.description->outputs[output].emission == Emission::one) return state_.results.size_of(whole_key_);
   if (lazy() && passed_bytes_ == 0) value(output, k);  // the first one tells how big they are
-  return passed_bytes_;
+  if (lazy()) return passed_bytes_;
+  return state_.results.size_of(whole_key_) / std::max<std::size_t>(1, count(output));
 }
 
 }  // namespace plumb

@@ -56,11 +56,12 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void start();
   /// In a worker: takes over what another process made and put into the store, by its keys.
   void adopt_items(std::vector<Hash128> keys, Source edges);
-  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys);
+  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source edges);
   /// In a worker: joins the inputs of a step whose calls are asked for one by one.
   void join();
-  /// In a worker: makes one call, puts its result into the store unless the step has lazy outputs, and writes down what became of it. Throws Error.
-  void make_one(std::size_t k, Reply& reply);
+  /// In a worker: makes one call, puts its result into the store under the `expected` key unless the step has lazy outputs, and writes down what
+  /// became of it. Throws MachineryError when the key is another here or the store does not take the result, Error when the call fails.
+  void make_one(std::size_t k, const Hash128& expected, Reply& reply);
 
   const PlannedStep& plan() const { return plan_; }
   const ParameterValues& values() const { return values_; }
@@ -93,6 +94,9 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void book_passed(const PassedCounts& passed);
   /// Whether another process put the result of call k into the store; what its step said is said again then.
   bool adopt_result(std::size_t k);
+  /// Whether the result of call k is in the store, and removes it from there.
+  bool has_result(std::size_t k) const { return state_.results.store()->contains(key_of_call(k)); }
+  void remove_result(std::size_t k) { state_.results.store()->remove(key_of_call(k)); }
   /// Throws Error unless other processes can get this run's results from the store.
   void require_in_store() const;
 
@@ -130,11 +134,12 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void check_items(std::size_t output);
   SharedResult whole();
   // both
+  const Hash128& key_of_call(std::size_t k) const { return itemwise() ? kept_keys_[k] : whole_key_; }
   bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
   void say_again(const StoredResult& result);
   void book(const Reply& reply);
   StoredResult result_of(std::vector<PortOutput>& outputs, StoredResult said) const;
-  Hash128 kept(const Hash128& key, StoredResult result, SharedResult& pin);
+  SharedResult kept(const Hash128& key, StoredResult result, SharedResult& pin);
 
   const PlannedStep& plan_;
   const Step& step_;

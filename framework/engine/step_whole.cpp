@@ -10,8 +10,14 @@
 namespace plumb {
 namespace {
 
-/// Results of whole steps up to this size stay in memory; bigger ones may leave it.
-constexpr std::size_t small_result = std::size_t{1} << 20;
+/// Results of whole steps stay in memory when they are small, and when they are files, which the run holds until its end anyway.
+bool stays_in_memory(const StoredResult& result) {
+  constexpr std::size_t small = std::size_t{1} << 20;
+  for (const auto& values : result.outputs)
+    for (const AnyValue& value : values)
+      if (value.type == &type_of<Document>()) return true;
+  return memory_of(result) <= small;
+}
 
 }  // namespace
 
@@ -46,7 +52,7 @@ bool StepRun::find_whole() {
   auto found = state_.results.find(whole_key_);
   if (!found || found->outputs.size() != plan_.description->outputs.size()) return false;
   if (store && !here) say_again(*found);
-  if (!state_.results.in_store(whole_key_) || memory_of(*found) <= small_result) whole_pin_ = std::move(found);
+  if (!state_.results.in_store(whole_key_) || stays_in_memory(*found)) whole_pin_ = std::move(found);
   return true;
 }
 
@@ -57,9 +63,9 @@ void StepRun::take_whole(std::vector<PortOutput> outputs, StoredResult said) {
     whole_pin_ = std::make_shared<const StoredResult>(std::move(result));
     return;
   }
-  const bool small = memory_of(result) <= small_result;
-  kept(whole_key_, std::move(result), whole_pin_);
-  if (!whole_pin_ && small) whole_pin_ = state_.results.find(whole_key_);
+  const bool stays = stays_in_memory(result);
+  SharedResult made = kept(whole_key_, std::move(result), whole_pin_);
+  if (stays) whole_pin_ = std::move(made);
 }
 
 void StepRun::make_whole_elsewhere() {
@@ -67,9 +73,9 @@ void StepRun::make_whole_elsewhere() {
     book(reply);
     if (!reply.fault.empty()) throw NestedError(reply.fault);
     lazy_.resize(plan_.description->outputs.size());
-    for (std::size_t o = 0; o < reply.lazy.size(); ++o) {
+    for (std::size_t o = 0; o < std::min(reply.lazy.size(), lazy_.size()); ++o) {
       lazy_[o].keys = reply.lazy[o];
-      lazy_[o].open = [](std::size_t, Context&) -> AnyValue { throw Error("its values are made in workers, not here"); };
+      lazy_[o].open = [](std::size_t, Context&) -> AnyValue { throw Error("its values are made by workers alone; a result was lost from the store meanwhile: run again, it is made anew"); };
     }
     if (lazy()) {
       auto result = read_blob(whole_key_, reply.result);
@@ -79,12 +85,14 @@ void StepRun::make_whole_elsewhere() {
       state_.results.made_elsewhere(whole_key_, plan_.description->name);
       auto found = state_.results.find(whole_key_);
       if (!found) throw NestedError(title(0) + ": its result did not come into the store; is the folder the same for all processes?");
-      if (memory_of(*found) <= small_result) whole_pin_ = std::move(found);
+      if (stays_in_memory(*found)) whole_pin_ = std::move(found);
     }
   });
 }
 
-void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys) {
+void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source edges) {
+  if (edges.run) edges_ = edges.run->value(edges.output).as<Edges>();
+  edges_source_ = std::move(edges);
   whole_key_ = key;
   whole_keys_ = std::move(keys);
 }
@@ -127,10 +135,8 @@ SharedResult StepRun::whole() {
     throw NestedError(title(0) + ": its result is gone from the store; run again, it is made anew");
   StoredResult said;
   auto outputs = call(0, &said);
-  auto made = std::make_shared<const StoredResult>(result_of(outputs, std::move(said)));
   SharedResult pin;
-  kept(whole_key_, StoredResult(*made), pin);
-  return made;
+  return kept(whole_key_, result_of(outputs, std::move(said)), pin);
 }
 
 }  // namespace plumb

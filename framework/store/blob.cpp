@@ -57,14 +57,7 @@ std::string_view body_of(std::string_view bytes) {
   return sum == hash_of(body) ? body : std::string_view();
 }
 
-}  // namespace
-
-std::string blob_of(const Hash128& key, const StoredResult& result, std::string_view step) {
-  std::size_t size = 1024;  // about what all of it takes: one buffer, never moved
-  for (const auto& values : result.outputs)
-    for (const AnyValue& value : values) size += value.type->bytes(value.value.get()) + 32 * array_alignment;
-  OutArchive<TextSink> out;
-  out.text.reserve(size);
+void write_body(const Hash128& key, const StoredResult& result, std::string_view step, OutArchive<TextSink>& out) {
   out.put(magic.data(), magic.size());
   out(key.high, key.low, std::string(step), static_cast<std::uint64_t>(result.outputs.size()));
   for (const auto& values : result.outputs) {
@@ -77,9 +70,39 @@ std::string blob_of(const Hash128& key, const StoredResult& result, std::string_
   out(static_cast<std::uint64_t>(result.counts.size()));
   for (const auto& [what, n] : result.counts) out(what, n);
   out(result.warnings);
+}
+
+}  // namespace
+
+std::size_t size_of_blob(const StoredResult& result) {
+  std::size_t size = 1024;
+  for (const auto& values : result.outputs)
+    for (const AnyValue& value : values) size += value.type->bytes(value.value.get()) + 32 * array_alignment;
+  return size;
+}
+
+std::string blob_of(const Hash128& key, const StoredResult& result, std::string_view step) {
+  OutArchive<TextSink> out;
+  out.text.reserve(size_of_blob(result));  // one buffer, never moved
+  write_body(key, result, step, out);
   const Hash128 sum = hash_of(out.text);
   out(sum.high, sum.low);
   return std::move(out.text);
+}
+
+void give_blob(const Hash128& key, const StoredResult& result, std::string_view step, const std::function<void(std::string_view)>& take) {
+  Hasher hasher;
+  OutArchive<TextSink> out;
+  out.take = [&](std::string_view bytes) {
+    hasher.bytes(bytes.data(), bytes.size());
+    take(bytes);
+  };
+  write_body(key, result, step, out);
+  out.flush();
+  const Hash128 sum = hasher.hash();
+  OutArchive<TextSink> end;
+  end(sum.high, sum.low);
+  take(end.text);
 }
 
 std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The bytes of one stored result.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,12 @@ inline constexpr std::size_t blob_head_size = 512;
 /// "plumb blob 2\n", the key, the step, the outputs (types by name and version), counts, warnings; then XXH3-128 of all that.
 /// Arrays of plain values begin at multiples of 16 bytes (data/archive.hpp), so that they can be read where the file is mapped.
 std::string blob_of(const Hash128& key, const StoredResult& result, std::string_view step);
+
+/// About as many bytes as the blob of a result has, and not fewer.
+std::size_t size_of_blob(const StoredResult& result);
+
+/// As blob_of, handed on piece by piece, so that a big one is never in memory a second time.
+void give_blob(const Hash128& key, const StoredResult& result, std::string_view step, const std::function<void(std::string_view)>& take);
 
 /// Reads them back. None: another key, cut, altered, or values of a type or version that this program does not know.
 std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes);

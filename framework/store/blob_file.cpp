@@ -47,16 +47,23 @@ std::optional<BlobHead> head_in(const fs::path& file, const Hash128& key) {
 }
 
 bool write_whole(const fs::path& file, std::string_view bytes) {
+  return write_pieces(file, [&](const Take& take) { take(bytes); });
+}
+
+bool write_pieces(const fs::path& file, const std::function<void(const Take& take)>& give) {
   const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (to < 0) return false;
   bool good = true;
-  while (good && !bytes.empty()) {
-    const ssize_t n = write(to, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    good = n > 0;
-    if (good) bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  int why = errno;
+  int why = 0;
+  give([&](std::string_view bytes) {
+    while (good && !bytes.empty()) {
+      const ssize_t n = write(to, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      good = n > 0;
+      if (good) bytes.remove_prefix(static_cast<std::size_t>(n));
+      else why = errno;
+    }
+  });
   if (close(to) != 0 && good) good = false, why = errno;
   if (!good) unlink(file.c_str()), errno = why;
   return good;

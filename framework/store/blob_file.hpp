@@ -22,6 +22,9 @@ std::optional<BlobHead> head_in(const std::filesystem::path& file, const Hash128
 
 /// Writes a new file whole. False, with errno, when the disk does not take it; nothing is left then.
 bool write_whole(const std::filesystem::path& file, std::string_view bytes);
+/// The same, of bytes that `give` hands on piece by piece.
+using Take = std::function<void(std::string_view)>;
+bool write_pieces(const std::filesystem::path& file, const std::function<void(const Take& take)>& give);
 
 /// Puts a file in the place of another, or of none, at once. False, with errno, when the disk does not take it.
 bool replace_whole(const std::filesystem::path& file, std::string_view bytes);

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <mutex>
+#include <random>
 
 #include "plumb/data/error.hpp"
 #include "plumb/store/blob.hpp"
@@ -17,11 +18,18 @@ namespace {
 
 constexpr const char *mark_file = "plumb-store", *mark = "plumb store 2";
 
+constexpr std::size_t small_blob = std::size_t{8} << 20;  ///< is made whole before it is written
+
 std::mutex fault_mutex;
+
+std::string new_token() {
+  std::random_device device;
+  return std::to_string((std::uint64_t{device()} << 32) | device());
+}
 
 }  // namespace
 
-Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(folder).lexically_normal()) {
+Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(folder).lexically_normal()), token_(new_token()) {
   const auto refuse = [&](const std::string& why) { throw Error("--store " + folder.string() + ": " + why); };
   std::error_code error;
   const fs::path marked = folder_ / mark_file;
@@ -31,6 +39,7 @@ Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(fold
     if (line != mark)
       refuse("is a store of another format ('" + line.substr(0, 40) + "', this program has '" + mark + "'); give another folder");
   } else {
+    if (role == StoreRole::worker) refuse("there is no store; a worker must see the folder of its run at the same place");
     if (fs::exists(folder_, error) && (!fs::is_directory(folder_) || !fs::is_empty(folder_)))
       refuse("holds something else and is no store; give a folder that is new or empty");
     fs::create_directories(folder_, error);
@@ -64,9 +73,14 @@ std::optional<StoredResult> Store::find(const Hash128& key) {
 bool Store::put(const Hash128& key, const StoredResult& result, std::string_view step) {
   if (failed_) return false;
   const fs::path file = blob_file(folder_, key);
-  const fs::path fresh = folder_ / "new" / (key.text() + "." + std::to_string(getpid()) + "." + std::to_string(++written_));
-  const std::string bytes = blob_of(key, result, step);
-  if (!write_whole(fresh, bytes)) return fail(std::strerror(errno));
+  const fs::path fresh = folder_ / "new" / (key.text() + "." + token_ + "." + std::to_string(++written_));
+  std::size_t size = 0;
+  const auto give = [&](const Take& take) {
+    const auto counted = [&](std::string_view bytes) { size += bytes.size(), take(bytes); };
+    if (size_of_blob(result) <= small_blob) counted(blob_of(key, result, step));
+    else give_blob(key, result, step, counted);
+  };
+  if (!write_pieces(fresh, give)) return fail(std::strerror(errno));
   std::error_code error;
   fs::rename(fresh, file, error);
   if (error) {  // the first of its folder
@@ -75,7 +89,7 @@ bool Store::put(const Hash128& key, const StoredResult& result, std::string_view
     if (!error) fs::rename(fresh, file, error);
   }
   if (!error) {
-    if (index_) index_->made(key, step, bytes.size());
+    if (index_) index_->made(key, step, size);
     return true;
   }
   const std::string why = error.message();

@@ -77,6 +77,7 @@ class Store {
   std::unique_ptr<Index> index_;
   std::atomic<std::size_t> damaged_ = 0, written_ = 0;
   std::atomic<bool> failed_ = false;
+  std::string token_;  ///< of this process among all that write into the folder, on whatever machine
   std::string fault_;
 };
 

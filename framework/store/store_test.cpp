@@ -109,6 +109,9 @@ TEST(Store, HashesArraysWithoutWhatAlignsThem) {
 TEST(Store, LetsWorkersLeaveTheIndexAlone) {
   const io::TestFolder folder;
   {
+    EXPECT_THROW(Store(folder.path() / "store", StoreRole::worker), Error);  // the run makes it
+    fs::create_directory(folder.path() / "store");
+    std::ofstream(folder.path() / "store/plumb-store") << "plumb store 2\n";
     Store worker(folder.path() / "store", StoreRole::worker);
     worker.put({1, 2}, small_result(5), "a.step");
     EXPECT_FALSE(worker.index());

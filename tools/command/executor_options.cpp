@@ -22,30 +22,33 @@ void ExecutorOptions::add_to(CLI::App& command) {
   command.add_option("--executor", executor, "Where calls are made: local, or slurm for the cluster whose machines share the store")
       ->check(CLI::IsMember({"local", "slurm"}))->capture_default_str();
   command.add_option("--executor-profile", profile, "Partition, time, memory, chunk and so on of the cluster's jobs (YAML)");
-  command.add_option("--time-limit", time_limit, "Of one call in a worker, such as 90s or 10min")->capture_default_str();
+  command.add_option("--time-limit", time_limit, "Of one call in a worker, such as 90s or 10min; without it 1h");
   command.add_option("--item-memory", item_memory, "What a worker may allocate, such as 4GiB; without it --memory, or the machine's");
 }
 
-std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t memory, bool verify_inputs, const Store* store) const {
+std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t memory, bool verify_inputs, bool fresh, const Store* store) const {
   const bool slurm = executor == "slurm";
   if (!slurm && !profile.empty()) throw Error("--executor-profile " + profile.string() + ": is for --executor slurm, which is not given");
   if (!needs_store()) {
-    if (!item_memory.empty()) throw Error("--item-memory " + item_memory + ": is for workers; give --isolate or --executor slurm too");
+    for (const auto& [option, value] : {std::pair("--item-memory ", item_memory), std::pair("--time-limit ", time_limit)})
+      if (!value.empty()) throw Error(option + value + ": is for workers; give --isolate or --executor slurm too");
     return nullptr;
   }
   WorkerCommand worker;
   worker.store = store->folder();
-  worker.memory = !item_memory.empty() ? bytes_of_text("--item-memory", item_memory) : memory > 0 ? memory : memory_of_machine();
   worker.contents = verify_inputs;
   WorkerOptions workers;
-  workers.command = words_of(worker);
   workers.workers = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-  workers.time_limit = std::chrono::duration<double>(age_of_text("--time-limit", time_limit)).count();
+  worker.memory = !item_memory.empty() ? bytes_of_text("--item-memory", item_memory) : memory > 0 ? memory / workers.workers : memory_of_machine();
+  workers.command = words_of(worker);
+  workers.time_limit = std::chrono::duration<double>(age_of_text("--time-limit", time_limit.empty() ? "1h" : time_limit)).count();
+  if (*workers.time_limit <= 0 || *workers.time_limit > 1e8) throw Error("--time-limit " + time_limit + ": give a time above zero and below three years, as in 10min");
   if (!slurm) return std::make_unique<IsolatedExecutor>(std::move(workers));
   SlurmOptions options;
   if (!profile.empty()) options.profile = read_profile(profile);
   options.store = store->folder();
-  if (item_memory.empty() && options.profile.memory > 0) worker.memory = options.profile.memory;
+  options.fresh = fresh;
+  if (item_memory.empty() && options.profile.memory > 0) worker.memory = options.profile.memory / options.profile.cpus;
   options.chunk_command = words_of(worker);
   options.chunk_command.insert(options.chunk_command.end(), {"--cpus", std::to_string(options.profile.cpus), "--time-limit", std::to_string(*workers.time_limit)});
   return std::make_unique<SlurmExecutor>(std::move(options), std::move(workers));

@@ -111,7 +111,7 @@ void run(const Options& options) {
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
-  const auto executor = options.executor.make(options.threads, memory, options.verify_inputs, store.get());
+  const auto executor = options.executor.make(options.threads, memory, options.verify_inputs, options.fresh, store.get());
   if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
   OutputFolder folder(options.output);
   for (const SideFile& file : side_files)
@@ -131,7 +131,7 @@ void run(const Options& options) {
     if (store) say_of_store(*store, result, options.quiet);
     if (options.quiet) print_weak(std::cerr, result, false);
     else print_summary(std::cout, plan, result, options.output, options.times);
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
     throw CLI::RuntimeError(3);
   }

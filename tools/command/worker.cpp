@@ -24,6 +24,8 @@ struct Options {
 };
 
 void run(Options& options) {
+  if (options.task.empty() && fcntl(WorkerProcess::channel, F_GETFD) < 0)
+    throw Error("worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor slurm', not by hand");
   Store store(options.worker.store, StoreRole::worker);
   if (!options.task.empty()) {
     WorkerOptions workers;
@@ -33,8 +35,6 @@ void run(Options& options) {
     make_chunk(options.task, options.chunk, options.chunk_size, store, std::move(workers));
     return;
   }
-  if (fcntl(WorkerProcess::channel, F_GETFD) < 0)
-    throw Error("worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor slurm', not by hand");
   if (options.worker.contents) io::identify_files_by(io::FileIdentity::content);
   serve_calls(WorkerProcess::channel, installed_steps(), store, options.worker.memory);
 }

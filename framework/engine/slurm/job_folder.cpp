@@ -1,5 +1,7 @@
 #include "plumb/engine/slurm/job_folder.hpp"
 
+#include <unistd.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -40,7 +42,7 @@ std::optional<JobFolder::Submitted> JobFolder::submitted() const {
 fs::path JobFolder::write_task(std::size_t number, const Task& task) const {
   std::error_code error;
   for (const char* inner : {"replies", "log"}) fs::create_directories(folder_ / inner, error);
-  const fs::path file = folder_ / (std::to_string(number) + ".task");
+  const fs::path file = folder_ / (std::to_string(number) + "-" + std::to_string(getpid()) + ".task");
   write_file(file, to_bytes(task));
   return file;
 }

@@ -2,9 +2,9 @@
 /// The folder of one step run's job on a shared disk: what is to be made, and what became of it. Beside the results in the store:
 ///
 ///     STORE/jobs/4f0c...e1/         named by the image: the same step run has the same folder in the next run
-///         2.task                    calls of the second submission
+///         2-4711.task               calls of the second submission, by the driver with this process number
 ///         submitted                 "2 1234": the last submission and Slurm's number for it
-///         replies/2.7               chunk 7 of it: a Notice after each beginning and end of a call
+///         replies/2-4711.7          chunk 7 of it: a Notice after each beginning and end of a call
 ///         log/1234_7.txt            what the chunk's process said
 
 #include <filesystem>

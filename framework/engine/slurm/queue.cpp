@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,7 +40,14 @@ CommandSaid run_command(const std::vector<std::string>& words) {
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_t id = -1;
-  const int fault = posix_spawnp(&id, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawnattr_t attributes;  // signals that this process holds back, the command does not
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  const int fault = posix_spawnp(&id, arguments[0], &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
   close(err[1]);
@@ -88,6 +96,7 @@ std::string SlurmQueue::submit(const Submission& submission) {
 
 JobState SlurmQueue::state(const std::string& job) {
   const CommandSaid said = run_command({"squeue", "--noheader", "--jobs", job, "--format", "%T"});
+  if (said.code == 127) throw Error("--executor slurm: there is no 'squeue' here; run where Slurm is installed");
   if (said.code != 0) return said.err.find("Invalid job id") != std::string::npos ? JobState::over : JobState::unknown;
   return said.out.find_first_not_of(" \n") == std::string::npos ? JobState::over : JobState::active;
 }

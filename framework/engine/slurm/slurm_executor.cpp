@@ -11,6 +11,8 @@ namespace {
 
 /// A job that was submitted so often without one more result is not tried again.
 constexpr int most_idle_submissions = 3;
+/// A call in a chunk that ended without a word is begun again so often beyond its tries: a crash of its own would have been told.
+constexpr unsigned kills_forgiven = 3;
 /// Elements of one array; sites allow 1001 by default.
 constexpr std::size_t most_chunks = 1000;
 
@@ -28,12 +30,12 @@ class Calls {
     for (const Notice& notice : news) {
       const auto at = open_.find(notice.reply.item);
       if (at == open_.end()) continue;
-      if (!notice.ended) {
-        ++begun_[notice.reply.item];
-        continue;
-      }
-      if (notice.reply.crashed && begun_[notice.reply.item] < tries_) continue;
-      settle(at->first, notice.reply);
+      const Reply& reply = notice.reply;
+      if (!notice.ended) ++begun_[reply.item], ++begun_in_all_;
+      else if (reply.machinery) trouble_ = reply.fault;  // of that machine, or of this moment: left open
+      else if (reply.outside) continue;                  // as if its chunk had been killed
+      else if (reply.crashed && ++crashed_[reply.item] < tries_) continue;
+      else if (!reply.fault.empty() || run_.has_result(reply.item)) settle(at->first, reply);
     }
     return before - open_.size();
   }
@@ -47,8 +49,8 @@ class Calls {
       reply.item = item;
       if (run_.adopt_result(item)) {
         settled.push_back(reply);
-      } else if (begun_[item] >= tries_) {
-        reply.fault = call->title + ": was begun " + std::to_string(begun_[item]) + " times and its process never ended it; it is set aside (tries, in the executor profile)";
+      } else if (begun_[item] >= tries_ + kills_forgiven) {
+        reply.fault = call->title + ": was begun " + std::to_string(begun_[item]) + " times and its job was ended each time; it is set aside";
         settled.push_back(reply);
       }
     }
@@ -57,6 +59,8 @@ class Calls {
   }
 
   bool all_settled() const { return open_.empty(); }
+  std::size_t begun_in_all() const { return begun_in_all_; }
+  const std::string& trouble() const { return trouble_; }  ///< the last that a machine had
   Task rest() const {
     Task task = work_.task;
     task.calls.clear();
@@ -76,7 +80,9 @@ class Calls {
   unsigned tries_;
   const std::function<void(const Reply&)>& done_;
   std::map<std::size_t, const Call*> open_;
-  std::map<std::size_t, unsigned> begun_;
+  std::map<std::size_t, unsigned> begun_, crashed_;
+  std::size_t begun_in_all_ = 0;
+  std::string trouble_;
 };
 
 }  // namespace
@@ -105,7 +111,7 @@ void SlurmExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, co
   bool submit = false;
   const bool always = options_.profile.submit_above == 0;
   if (always) rest = work.task, submit = true;
-  else here(first, [&](const Reply& reply) { submit = worth_submitting(reply, rest.calls.size()), done(reply); });
+  else here(first, [&](const Reply& reply) { submit = !reply.fault.empty() || worth_submitting(reply, rest.calls.size()), done(reply); });
   if (rest.calls.empty()) return;
   if (!submit) return here(rest, done);
   work.task = std::move(rest);
@@ -118,27 +124,39 @@ namespace {
 struct CancelUnlessOver {
   SlurmQueue& queue;
   std::string& job;
+  bool& mine;  ///< submitted by this driver
   ~CancelUnlessOver() {
-    if (!job.empty()) queue.cancel(job);
+    if (mine && !job.empty()) queue.cancel(job);
   }
 };
 
 }  // namespace
 
 void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const std::function<void(const Reply&)>& done) {
-  JobFolder folder(options_.store / "jobs" / content_hash(work.task.image).text());
+  Hasher name;  // what the calls see, too: a job for other inputs is another job
+  name.text(work.task.image);
+  for (const Hash128& key : run.item_keys()) name.bytes(&key, sizeof key);
+  JobFolder folder(options_.store / "jobs" / name.hash().text());
+  if (options_.fresh) {
+    folder.remove();
+    for (const Call& call : work.task.calls) run.remove_result(call.item);
+  }
   Calls calls(run, work, options_.profile.tries, done);
   std::size_t number = 0;
   std::string job;
+  bool mine = false;
   if (const auto earlier = folder.submitted()) {  // of a driver that is gone
     number = earlier->number;
-    job = earlier->job;
+    if (queue_.state(earlier->job) != JobState::over) job = earlier->job;
+    else folder.remove();
   }
-  const CancelUnlessOver guard{queue_, job};
+  const CancelUnlessOver guard{queue_, job, mine};
+  std::size_t begun = 0;
   for (int idle = 0; !calls.all_settled();) {
     if (job.empty()) {
       if (idle == most_idle_submissions)
-        throw Error("step '" + run.plan().path + "': Slurm ended its job " + std::to_string(idle) + " times without one more result; see " + (folder.path() / "log").string());
+        throw Error("step '" + run.plan().path + "': Slurm ended its job " + std::to_string(idle) + " times without one more result" +
+                    (calls.trouble().empty() ? std::string() : " (" + calls.trouble() + ")") + "; see " + (folder.path() / "log").string());
       const Task task = calls.rest();
       const auto file = folder.write_task(++number, task);
       const std::size_t size = std::max(options_.profile.chunk, (task.calls.size() + most_chunks - 1) / most_chunks);
@@ -147,6 +165,7 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const std::func
       for (const std::string& word : {std::string("--task"), file.string(), std::string("--chunk-size"), std::to_string(size), std::string("--chunk")})
         submission.command.push_back(word);
       job = queue_.submit(submission);
+      mine = true;
       folder.write_submitted({number, job});
     }
     std::size_t settled = 0;
@@ -161,7 +180,8 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const std::func
     }
     settled += calls.take(folder.news());
     settled += calls.take_rest();
-    idle = settled ? 0 : idle + 1;
+    idle = settled > 0 || calls.begun_in_all() > begun ? 0 : idle + 1;
+    begun = calls.begun_in_all();
     job.clear();
   }
   folder.remove();

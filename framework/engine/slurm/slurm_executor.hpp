@@ -12,6 +12,7 @@ namespace plumb {
 struct SlurmOptions {
   ExecutorProfile profile;
   std::filesystem::path store;               ///< folder that all machines see
+  bool fresh = false;                        ///< results of earlier runs are removed and made again
   std::vector<std::string> chunk_command;    ///< program and arguments of a worker for chunks; --task, --chunk-size and --chunk are added
 };
 

@@ -53,6 +53,7 @@ class Imaging {
         run.require_in_store();
         entry.keys = {run.whole_key()};
         entry.value_keys = run.whole_keys();
+        if (run.edges_source().run) entry.edges = wire_of(run.edges_source());
         break;
       default:
         for (const auto& port : run.inputs()) {
@@ -95,16 +96,17 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
   for (const auto& port : from.inputs) wired |= !port.empty();
   if (from.role == ImageRole::open && !wired) {  // opened once for all images of this process
     const Hash128 name = content_hash(from);
-    auto& kept = opened[name];
-    if (!kept) {
+    const auto at = opened.find(name);
+    if (at == opened.end()) {
       Image alone;
       alone.runs = {from};
       alone.runs[0].role = ImageRole::call;
       Opened none;
-      kept = std::make_shared<ImageRuns>(alone, registry, state, none);
-      kept->target().start();
+      const auto fresh = std::make_shared<ImageRuns>(alone, registry, state, none);
+      fresh->target().start();
+      opened[name] = fresh;
     }
-    return kept->runs_.back();
+    return opened[name]->runs_.back();
   }
   const StepDescription* description = registry.find(from.step);
   if (!description) throw Error("this worker has no step '" + from.step + "'; give workers the same plugins as the run");
@@ -118,17 +120,14 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
   }
   const Keeping keeping = from.role == ImageRole::pass ? Keeping::passing : Keeping::kept;
   auto run = std::make_shared<StepRun>(*plan, registry.step(from.step), values_from(from.values), std::move(inputs), keeping, state);
+  Source edges;
+  if (from.edges.run >= 0) edges = {runs_.at(from.edges.run), static_cast<int>(from.edges.output), ""};
   switch (from.role) {
     case ImageRole::call:
     case ImageRole::pass: run->join(); break;
     case ImageRole::open: run->start(); break;
-    case ImageRole::whole: run->adopt_whole(from.keys.at(0), from.value_keys); break;
-    case ImageRole::items: {
-      Source edges;
-      if (from.edges.run >= 0) edges = {runs_.at(from.edges.run), static_cast<int>(from.edges.output), ""};
-      run->adopt_items(from.keys, std::move(edges));
-      break;
-    }
+    case ImageRole::whole: run->adopt_whole(from.keys.at(0), from.value_keys, std::move(edges)); break;
+    case ImageRole::items: run->adopt_items(from.keys, std::move(edges)); break;
   }
   return run;
 }

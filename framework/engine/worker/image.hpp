@@ -40,7 +40,7 @@ struct ImageRun {
   std::vector<std::vector<ImageWire>> inputs;    ///< by port; of call, pass and open
   std::vector<Hash128> keys;                     ///< of items: by item; of whole: one
   std::vector<std::vector<Hash128>> value_keys;  ///< of whole: by output
-  ImageWire edges;                               ///< of items on edges: where the edges are
+  ImageWire edges;                               ///< of values on edges: where the edges are
 };
 
 struct Image {

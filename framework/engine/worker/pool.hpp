@@ -1,7 +1,6 @@
 #pragma once
 /// Worker processes on this machine.
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -28,7 +27,6 @@ class WorkerPool {
   /// Makes all calls and tells of each; `done` is called from one thread at a time and may throw, which ends the task. `begins` is told before each call,
   /// from any thread. Throws Error when no worker can be started.
   void make(const Task& task, const std::function<void(const Reply&)>& done, const std::function<void(std::size_t item)>& begins = nullptr);
-  std::size_t started() const { return started_; }
 
  private:
   Reply ask(std::unique_ptr<WorkerProcess>& worker, std::uint64_t& has, const Task& task, const Call& call);
@@ -36,7 +34,6 @@ class WorkerPool {
   std::vector<std::unique_ptr<WorkerProcess>> workers_;
   std::vector<std::uint64_t> images_;  ///< by worker: number of the task whose image it has
   std::uint64_t task_ = 0;
-  std::atomic<std::size_t> started_ = 0;
 };
 
 }  // namespace plumb

@@ -18,7 +18,7 @@ extern char** environ;
 namespace plumb {
 namespace {
 
-constexpr std::uint64_t longest_message = std::uint64_t{1} << 40;
+constexpr std::uint64_t longest_message = std::uint64_t{1} << 36;
 
 /// False at the deadline or when the other end is gone.
 bool read_all(int socket, char* to, std::size_t size, Deadline deadline) {
@@ -77,7 +77,14 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command) {
   else posix_spawn_file_actions_adddup2(&actions, ends[1], channel);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  const int fault = posix_spawn(&id_, command.front().c_str(), &actions, nullptr, arguments.data(), environ);
+  posix_spawnattr_t attributes;  // signals that this process holds back, a worker does not
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  const int fault = posix_spawn(&id_, command.front().c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   if (fault != 0) {

@@ -1,9 +1,11 @@
 #include "plumb/engine/worker/service.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -28,15 +30,16 @@ void end_with_driver(int socket) {
   }).detach();
 }
 
-std::uint64_t peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+/// An eighth of what the process may allocate: the rest is for the call.
+std::size_t memory_for_results(std::size_t memory) {
+  constexpr std::size_t most = std::size_t{256} << 20;
+  return memory > 0 ? std::min(most, memory / 8) : most;
 }
 
 class Service {
  public:
-  Service(const Registry& registry, Store& store) : registry_(registry), books_(silent_), results_(&store, false, std::size_t{256} << 20), admission_(0) {}
+  Service(const Registry& registry, Store& store, std::size_t memory)
+      : registry_(registry), books_(silent_), results_(&store, false, memory_for_results(memory)), admission_(0) {}
 
   Reply answer(const Request& request) {
     Reply reply;
@@ -48,9 +51,12 @@ class Service {
     with_threads(static_cast<unsigned>(request.threads), [&] {
       try {
         if (!request.image.empty()) take(request.image);
-        if (!runs_) throw Error(fault_);
+        if (!runs_) throw MachineryError(fault_);
         const Stopwatch watch(books_, runs_->target().plan().path);
-        runs_->target().make_one(request.item, reply);
+        runs_->target().make_one(request.item, request.key, reply);
+      } catch (const MachineryError& e) {
+        reply.fault = e.what();
+        reply.machinery = true;
       } catch (const std::exception& e) {
         reply.fault = e.what();
       }
@@ -58,7 +64,6 @@ class Service {
     reply.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     reply.warnings = books_.warnings();
     for (const StepTime& time : books_.times()) reply.spent.push_back({time.path, time.cpu_seconds});
-    reply.peak_bytes = peak_bytes();
     return reply;
   }
 
@@ -70,8 +75,8 @@ class Service {
     try {
       runs_.emplace(from_bytes<Image>(bytes), registry_, state, opened_);
     } catch (const std::exception& e) {
-      fault_ = e.what();
-      throw;
+      fault_ = std::string("a worker cannot take up the step's inputs: ") + e.what();
+      throw MachineryError(fault_);
     }
   }
 
@@ -106,8 +111,9 @@ void serve_calls(int socket, const Registry& registry, Store& store, std::size_t
   }
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);  // a crash costs its item, not the disk
+  fcntl(socket, F_SETFD, FD_CLOEXEC);  // a program that a module starts must not keep the socket open
   end_with_driver(socket);
-  Service service(registry, store);
+  Service service(registry, store, memory);
   while (const auto message = receive_message(socket))
     if (!send_message(socket, to_bytes(service.answer(from_bytes<Request>(*message))))) return;
 }

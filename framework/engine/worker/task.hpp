@@ -26,6 +26,7 @@ struct Task {
 struct Request {
   std::string image;  ///< empty: as before
   std::uint64_t item = 0, threads = 1;
+  Hash128 key;        ///< of the result, as the driver has it
 };
 
 template <class Archive, class T>
@@ -41,7 +42,7 @@ void fields(Archive& a, T& t) {
 template <class Archive, class T>
   requires std::is_same_v<std::remove_const_t<T>, Request>
 void fields(Archive& a, T& r) {
-  a(r.image, r.item, r.threads);
+  a(r.image, r.item, r.threads, r.key);
 }
 
 }  // namespace plumb
