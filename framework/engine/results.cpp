@@ -34,7 +34,7 @@ SharedResult Results::find(const Hash128& key) {
 SharedResult Results::keep(const Hash128& key, StoredResult result, const std::string& step) {
   auto shared = std::make_shared<const StoredResult>(std::move(result));
   const bool taken = store_ && store_->put(key, *shared, step);
-  insert(key, shared, taken);
+  insert(key, shared, taken, !(taken && frugal_));
   return shared;
 }
 
@@ -62,12 +62,12 @@ std::size_t Results::size_of(const Hash128& key) const {
   return at == facts_.end() ? 0 : at->second.bytes;
 }
 
-void Results::insert(const Hash128& key, const SharedResult& result, bool in_store) {
+void Results::insert(const Hash128& key, const SharedResult& result, bool in_store, bool stays) {
   const std::size_t bytes = memory_of(*result);
   std::list<Entry> gone;  // declared before the lock: what leaves is freed after it
   const std::lock_guard lock(mutex_);
   facts_[key] = {bytes, in_store};
-  if (bytes > budget_ || index_.contains(key)) return;
+  if (!stays || bytes > budget_ || index_.contains(key)) return;
   entries_.push_front({key, result, bytes});
   index_[key] = entries_.begin();
   bytes_ += bytes;

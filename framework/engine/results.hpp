@@ -20,8 +20,9 @@ std::size_t memory_of(const StoredResult& result);
 /// whoever needs it. Safe from several threads.
 class Results {
  public:
-  /// With `fresh` nothing that an earlier run left in the store is found.
-  Results(Store* store, bool fresh, std::size_t budget) : store_(store), fresh_(fresh), budget_(budget) {}
+  /// With `fresh` nothing that an earlier run left in the store is found. With `frugal` only what was asked for stays in memory, not what was just made and
+  /// is in the store.
+  Results(Store* store, bool fresh, std::size_t budget, bool frugal = false) : store_(store), fresh_(fresh), frugal_(frugal), budget_(budget) {}
 
   /// The result under `key`, from memory or from the store; null when it is in neither.
   SharedResult find(const Hash128& key);
@@ -51,10 +52,10 @@ class Results {
     std::size_t bytes = 0;
     bool in_store = false;
   };
-  void insert(const Hash128& key, const SharedResult& result, bool in_store);
+  void insert(const Hash128& key, const SharedResult& result, bool in_store, bool stays = true);
 
   Store* store_;
-  bool fresh_;
+  bool fresh_, frugal_;
   mutable std::mutex mutex_;
   std::size_t budget_, bytes_ = 0;
   std::list<Entry> entries_;  // most recently used first

@@ -41,6 +41,15 @@ TEST_F(WithStore, WhatLeftMemoryComesBack) {
   EXPECT_GE(results.size_of({1, 0}), 4000u);
 }
 
+TEST_F(WithStore, FrugalHoldsWhatWasAskedForAlone) {
+  Store store(folder);
+  Results results(&store, false, 1 << 20, true);
+  results.keep({1, 1}, numbers(3), "test.step");
+  EXPECT_FALSE(results.remembered({1, 1}));
+  EXPECT_TRUE(results.find({1, 1}));
+  EXPECT_TRUE(results.remembered({1, 1}));
+}
+
 TEST_F(WithStore, FreshFindsOnlyWhatThisRunMade) {
   Store store(folder);
   Results(&store, false, 1 << 20).keep({1, 1}, numbers(3), "test.step");

@@ -26,7 +26,7 @@ class Runner {
   Runner(const Plan& plan, const Registry& registry, const RunOptions& options, Observer& observer)
       : plan_(plan),
         books_(observer),
-        results_(options.store, options.fresh, memory_for_results(options)),
+        results_(options.store, options.fresh, memory_for_results(options), options.memory > 0),
         admission_(memory_for_calls(options)),
         executor_(options.executor),
         store_(options.store),
