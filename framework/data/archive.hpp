@@ -118,6 +118,11 @@ class InArchive {
   void operator()(T&... values) {
     (take_value(values), ...);
   }
+  /// Bytes whose number stands before them.
+  std::string_view take_bytes() {
+    const std::size_t n = take_size(1);
+    return {take(n), n};
+  }
   bool at_end() const { return at_ == bytes_.size(); }
 
  private:

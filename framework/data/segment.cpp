@@ -19,6 +19,12 @@ const SearchTree& LazyTree::of(const Cloud& cloud) const {
   return *state_->tree;
 }
 
+std::vector<Eigen::Vector3f> Range::origins() const {
+  std::vector<Eigen::Vector3f> origins;
+  for (const Pose& pose : T_segment_frame) origins.push_back(pose.translation.cast<float>());
+  return origins;
+}
+
 Segment Segment::with(Cloud other, std::vector<std::uint16_t> frames) const {
   Segment result;
   result.range = range;

@@ -24,6 +24,8 @@ struct Range {
   std::vector<Pose> T_segment_frame;   ///< of each of its frames
 
   std::size_t size() const { return end - first; }
+  /// Where the sensor stood at each frame, in segment coordinates [m].
+  std::vector<Eigen::Vector3f> origins() const;
 };
 
 /// A kd-tree that is built at the first question and then shared by all who hold the segment.

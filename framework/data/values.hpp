@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plumb/data/archive.hpp"
+#include "plumb/data/file_bytes.hpp"
 #include "plumb/data/graph.hpp"
 #include "plumb/data/segment.hpp"
 #include "plumb/data/trajectory.hpp"
@@ -69,7 +70,7 @@ struct Metrics {
 /// A file in the making; the engine puts it into the output folder.
 struct Document {
   std::string name;   ///< file name, without a folder
-  std::string bytes;
+  FileBytes bytes;
 };
 
 template <class Archive, class T>

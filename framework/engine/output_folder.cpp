@@ -45,9 +45,9 @@ void refuse_foreign_files(const fs::path& folder) {
               " that no run of Plumb wrote; give another folder with -o, or move them away");
 }
 
-void write_file(const fs::path& file, const std::string& bytes) {
+void write_file(const fs::path& file, const FileBytes& bytes) {
   std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.give([&](std::string_view piece) { out.write(piece.data(), static_cast<std::streamsize>(piece.size())); });
   out.close();
   if (!out) throw Error(file.string() + ": cannot be written; is the disk full?");
 }

@@ -61,7 +61,7 @@ TEST_F(Engine, RunsACascadeAndCarriesPosesFromPassToPass) {
   const RunResult result = run(cascade);
   ASSERT_EQ(result.documents.size(), 1u);
   // Four segments 24 m apart: 3 edges of 24, then 12, then 6 m; gates 4, 2, 1. The fold: sum of 2^(11-k) k for k = 0..11.
-  EXPECT_EQ(result.documents[0].document->bytes, "last gap=18 gates=3\nsums sum=4083 frames=12\n");
+  EXPECT_EQ(result.documents[0].document->bytes.text(), "last gap=18 gates=3\nsums sum=4083 frames=12\n");
   ASSERT_EQ(result.loops.size(), 1u);
   EXPECT_EQ(result.loops[0].passes, 3);
 }
@@ -84,7 +84,7 @@ TEST_F(Engine, SumsCountsOverItemsEachOnceHoweverOftenItIsMade) {
 }
 
 TEST_F(Engine, GivesTheSameBytesForOneAndForTwoThreads) {
-  EXPECT_EQ(run(cascade, {}, 1).documents[0].document->bytes, run(cascade, {}, 2).documents[0].document->bytes);
+  EXPECT_EQ(run(cascade, {}, 1).documents[0].document->bytes.text(), run(cascade, {}, 2).documents[0].document->bytes.text());
 }
 
 TEST_F(Engine, RepeatsTheLastColumnUntilTheConditionHolds) {
@@ -93,7 +93,7 @@ TEST_F(Engine, RepeatsTheLastColumnUntilTheConditionHolds) {
   const RunResult result = run(yaml);
   EXPECT_EQ(result.loops[0].passes, 7);  // 72, 36, 18, 9, 4.5, 2.25, 1.125
   EXPECT_THAT(result.loops[0].why, HasSubstr("1.125"));
-  EXPECT_THAT(result.documents[0].document->bytes, HasSubstr("gates=3"));
+  EXPECT_THAT(result.documents[0].document->bytes.text(), HasSubstr("gates=3"));
 }
 
 TEST(Loop, SaysWhyItEndsAndWhetherTheNumberRose) {
@@ -137,7 +137,7 @@ steps:
 
 TEST_F(Engine, TakesManyValuesTogetherWithTheItemsThatTheyBelongTo) {
   // First points of the pieces: 0, 3, 6, 9; of the groups: 0, 0, 3, 6. Edges 0-1, 1-2, 2-3.
-  EXPECT_THAT(run(stitched).documents[0].document->bytes, HasSubstr("gap=15"));
+  EXPECT_THAT(run(stitched).documents[0].document->bytes.text(), HasSubstr("gap=15"));
 }
 
 TEST_F(Engine, RefusesManyValuesThatAreFewerThanTheirItems) {
@@ -151,7 +151,7 @@ TEST_F(Engine, RefusesManyValuesThatAreFewerThanTheirItems) {
 }
 
 TEST_F(Engine, ChangedRowsReachTheirSteps) {
-  EXPECT_THAT(run(cascade, {"loop.gate=7m,5m"}).documents[0].document->bytes, HasSubstr("gap=36 gates=15"));
+  EXPECT_THAT(run(cascade, {"loop.gate=7m,5m"}).documents[0].document->bytes.text(), HasSubstr("gap=36 gates=15"));
 }
 
 }  // namespace

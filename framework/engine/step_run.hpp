@@ -97,6 +97,8 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   /// Whether the result of call k is in the store, and removes it from there.
   bool has_result(std::size_t k) const { return state_.results.store()->contains(key_of_call(k)); }
   void remove_result(std::size_t k) { state_.results.store()->remove(key_of_call(k)); }
+  /// Says a sentence about this step while it runs, once.
+  void say(const std::string& sentence) { state_.books.warn(plan_.path, sentence); }
   /// Throws Error unless other processes can get this run's results from the store.
   void require_in_store() const;
 

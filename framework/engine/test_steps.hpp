@@ -207,9 +207,9 @@ struct Write : WholeStep {
   Out run(const In& in, const Params& params, Context&) const {
     Document document{params.name, ""};
     for (const auto& [label, metrics] : in.metrics) {
-      document.bytes += label;
-      for (const Number& number : metrics->numbers) document.bytes += " " + number.name + "=" + shortest(number.value);
-      document.bytes += "\n";
+      document.bytes.append(label);
+      for (const Number& number : metrics->numbers) document.bytes.append(" " + number.name + "=" + shortest(number.value));
+      document.bytes.append("\n");
     }
     return {document};
   }

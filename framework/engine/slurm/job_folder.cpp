@@ -2,25 +2,20 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/store/blob_file.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-/// Beside its place and renamed: whole or not there.
 void write_file(const fs::path& file, const std::string& bytes) {
-  fs::path fresh = file;
-  fresh += ".new";
-  std::ofstream out(fresh, std::ios::binary);
-  out << bytes;
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(fresh, file, error);
-  if (!out || error) throw Error(file.string() + ": cannot be written; is the store's disk full?");
+  if (!replace_whole(file, bytes)) throw Error(file.string() + ": cannot be written (" + std::strerror(errno) + "); is the store's disk full?");
 }
 
 std::string text_of(const fs::path& file) {

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 #include "plumb/data/error.hpp"
 
@@ -73,6 +75,19 @@ CommandSaid run_command(const std::vector<std::string>& words) {
   while (waitpid(id, &status, 0) < 0 && errno == EINTR) {}
   said.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return said;
+}
+
+void SlurmQueue::require(const std::string& partition) const {
+  const CommandSaid said = run_command({"sinfo", "--all", "--noheader", "--format", "%R"});
+  if (said.code == 127) throw Error("--executor slurm: there is no 'sinfo' here; run where Slurm is installed, or without --executor");
+  if (said.code != 0)
+    throw Error("--executor slurm: Slurm does not answer: " + first_line(said.err) + "; look at its controller (scontrol ping), or run without --executor");
+  std::set<std::string> there;
+  std::string all, name;
+  for (std::istringstream lines(said.out); lines >> name;)
+    if (there.insert(name).second) all += (all.empty() ? "" : ", ") + name;
+  for (std::istringstream asked(partition); std::getline(asked, name, ',');)
+    if (!there.contains(name)) throw Error("--executor slurm: Slurm has no partition '" + name + "', it has: " + all + "; look at the executor profile");
 }
 
 std::string SlurmQueue::submit(const Submission& submission) {

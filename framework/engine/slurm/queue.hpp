@@ -30,6 +30,8 @@ enum class JobState {
 
 class SlurmQueue {
  public:
+  /// Throws Error: Slurm is not installed here, its controller does not answer, or it has no such partition.
+  void require(const std::string& partition) const;
   /// Throws Error: Slurm is not installed here, or takes no job (in its own words).
   std::string submit(const Submission& submission);
   JobState state(const std::string& job);

@@ -13,6 +13,8 @@ namespace {
 constexpr int most_idle_submissions = 3;
 /// A call in a chunk that ended without a word is begun again so often beyond its tries: a crash of its own would have been told.
 constexpr unsigned kills_forgiven = 3;
+/// So long Slurm may leave questions without an answer before that is said [s].
+constexpr double patience = 10;
 /// Elements of one array; sites allow 1001 by default.
 constexpr std::size_t most_chunks = 1000;
 
@@ -89,6 +91,7 @@ class Calls {
 
 SlurmExecutor::SlurmExecutor(SlurmOptions options, WorkerOptions here)
     : options_(std::move(options)), threads_(here.workers), pool_(std::move(here)) {
+  queue_.require(options_.profile.partition);
   std::filesystem::create_directories(options_.store / "jobs");
 }
 
@@ -98,12 +101,7 @@ bool SlurmExecutor::worth_submitting(const Reply& first, std::size_t more) const
 
 void SlurmExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, const std::function<void(const Reply&)>& done) {
   Prepared work = prepared(run, calls, threads_);
-  const auto here = [&](const Task& task, const std::function<void(const Reply&)>& taken) {
-    pool_.make(task, [&](const Reply& reply) {
-      book_passed(reply, work.runs);
-      taken(reply);
-    });
-  };
+  const auto here = [&](const Task& task, const std::function<void(const Reply&)>& taken) { make_by(pool_, task, work.runs, taken); };
   if (!run.itemwise()) return here(work.task, done);
   Task first = work.task, rest = work.task;
   first.calls.resize(1);
@@ -169,12 +167,15 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const std::func
       folder.write_submitted({number, job});
     }
     std::size_t settled = 0;
-    double pause = 0.1;
+    double pause = 0.1, unanswered = 0;
     for (;;) {
       settled += calls.take(folder.news());
       if (calls.all_settled()) break;
       const JobState state = queue_.state(job);
       if (state == JobState::over) break;
+      if (state != JobState::unknown) unanswered = 0;
+      else if ((unanswered += pause) >= patience)
+        run.say("Slurm does not answer; waiting for its job " + job + ", whose results count once they are in the store");
       std::this_thread::sleep_for(std::chrono::duration<double>(pause));
       pause = std::min(pause * 1.5, options_.profile.poll);
     }

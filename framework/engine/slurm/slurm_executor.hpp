@@ -20,6 +20,7 @@ struct SlurmOptions {
 /// job of a step that still runs and waits for it.
 class SlurmExecutor final : public Executor {
  public:
+  /// Throws Error when Slurm does not answer or has no such partition.
   SlurmExecutor(SlurmOptions options, WorkerOptions here);
   void make(StepRun& run, const std::vector<std::size_t>& calls, const std::function<void(const Reply&)>& done) override;
 

@@ -18,12 +18,16 @@ void book_passed(const Reply& reply, const std::vector<StepRun*>& runs) {
     if (passed.run < runs.size()) runs[passed.run]->book_passed(passed);
 }
 
-void IsolatedExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, const std::function<void(const Reply&)>& done) {
-  const Prepared work = prepared(run, calls, threads_);
-  pool_.make(work.task, [&](const Reply& reply) {
-    book_passed(reply, work.runs);
+void make_by(WorkerPool& pool, const Task& task, const std::vector<StepRun*>& runs, const std::function<void(const Reply&)>& done) {
+  pool.make(task, [&](const Reply& reply) {
+    book_passed(reply, runs);
     done(reply);
   });
+}
+
+void IsolatedExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, const std::function<void(const Reply&)>& done) {
+  const Prepared work = prepared(run, calls, threads_);
+  make_by(pool_, work.task, work.runs, done);
 }
 
 }  // namespace plumb

@@ -17,6 +17,9 @@ Prepared prepared(StepRun& run, const std::vector<std::size_t>& calls, unsigned 
 /// Books what steps counted whose values passed through a call, each value once.
 void book_passed(const Reply& reply, const std::vector<StepRun*>& runs);
 
+/// Has `pool` make the calls of `task`; `runs` are those of the task's image.
+void make_by(WorkerPool& pool, const Task& task, const std::vector<StepRun*>& runs, const std::function<void(const Reply&)>& done);
+
 class IsolatedExecutor final : public Executor {
  public:
   explicit IsolatedExecutor(WorkerOptions options) : threads_(options.workers), pool_(std::move(options)) {}

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/data/voxel_means.hpp"
+
 namespace plumb {
 namespace {
 
@@ -70,8 +72,7 @@ struct Merger {
 
 }  // namespace
 
-Segment merge(const Range& range,
-              const std::function<std::shared_ptr<const Frame>(std::size_t k)>& open) {
+Segment merge(const Range& range, const OpenFrame& open) {
   Merger merger;
   for (std::size_t k = 0; k < range.size(); ++k) {
     const auto frame = open(k);
@@ -85,6 +86,21 @@ Segment merge(const Range& range,
   Segment empty;
   empty.range = range;
   return empty.with(std::move(merger.cloud), std::move(merger.frame));
+}
+
+Segment merge_thinned(const Range& range, double leaf, const OpenFrame& open, std::size_t& dropped) {
+  VoxelMeans means(leaf);
+  const auto origins = range.origins();
+  for (std::size_t k = 0; k < range.size(); ++k) {
+    Merger moved;
+    moved.add(open(k)->cloud, range.T_segment_frame[k], static_cast<std::uint16_t>(k));
+    means.add(moved.cloud, moved.frame, origins);
+  }
+  auto thinned = means.take();
+  dropped = thinned.dropped;
+  Segment empty;
+  empty.range = range;
+  return empty.with(std::move(thinned.cloud), std::move(thinned.frame));
 }
 
 }  // namespace plumb

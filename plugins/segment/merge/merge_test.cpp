@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
+#include "plumb/data/archive.hpp"
+#include "plumb/data/voxel_means.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb {
@@ -71,6 +75,29 @@ TEST(SegmentMerge, MovesEveryPointByItsFramesPoseAndKeepsTheOrder) {
       EXPECT_EQ(segment.cloud.time[at], cloud.time[k]);
       EXPECT_EQ(segment.cloud.ring[at], cloud.ring[k]);
     }
+  }
+}
+
+TEST(SegmentMerge, ThinsWhileItMergesAsAVoxelGridDoesAfterwards) {
+  for (const int lacking : {0, 1, 2}) {
+    Merged merged({scan(1, 5000), Cloud(), scan(2, 3000), scan(3, 7000)});
+    if (lacking == 1) merged.frames[2].cloud.intensity.clear();
+    if (lacking == 2) merged.frames[3].cloud.nx.clear();
+    merged.frames[2].cloud.y[7] = std::numeric_limits<float>::quiet_NaN();
+    std::size_t dropped = 0;
+    const Segment thinned = merge_thinned(merged.range, 9, [&](std::size_t k) { return std::make_shared<const Frame>(merged.frames[k]); }, dropped);
+    const Segment whole = merged.segment();
+    VoxelMeans means(9);
+    means.add(whole.cloud, whole.frame, whole.range.origins());
+    const auto expected = means.take();
+    EXPECT_LT(thinned.cloud.size(), 10000u);
+    EXPECT_EQ(content_hash(thinned.cloud), content_hash(expected.cloud));
+    EXPECT_EQ(thinned.frame, expected.frame);
+    EXPECT_EQ(dropped, 1u);
+    EXPECT_EQ(expected.dropped, 1u);
+    EXPECT_EQ(thinned.cloud.intensity.empty(), lacking == 1);
+    EXPECT_EQ(thinned.cloud.has_normals(), lacking != 2);
+    EXPECT_EQ(thinned.range.size(), 4u);
   }
 }
 

@@ -43,8 +43,9 @@ void add_all(VoxelMap& map, const Cloud& cloud, const Pose& pose) {
 
 /// The points that the map writes.
 std::vector<Eigen::Vector3f> taken(VoxelMap& map) {
-  std::string bytes;
-  map.write(bytes);
+  FileBytes made;
+  map.write(made);
+  const std::string bytes = made.text();
   std::vector<Eigen::Vector3f> points(bytes.size() / 12);
   std::memcpy(static_cast<void*>(points.data()), bytes.data(), bytes.size());
   return points;
@@ -108,9 +109,9 @@ TEST(VoxelMap, LeavesOutAndCountsWhatIsTooFar) {
   EXPECT_EQ(map.cells_of(cloud, Pose()).too_far, 1u);
 }
 
-TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceAndWheneverTilesAreClosed) {
-  const auto bytes_of = [](std::size_t together, std::size_t idle) {
-    VoxelMap map(0.1, Eigen::Vector3d::Zero());
+TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceWheneverTilesAreClosedAndWhereverTheyWait) {
+  const auto bytes_of = [](std::size_t together, std::size_t idle, std::size_t memory) {
+    VoxelMap map(0.1, Eigen::Vector3d::Zero(), memory);
     std::vector<VoxelMap::FrameCells> frames;
     for (std::uint64_t k = 0; k < 24; ++k) {  // there and back again
       const double way = static_cast<double>(k < 12 ? k : 24 - k);
@@ -119,14 +120,16 @@ TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceAndWheneverTilesAreClosed) {
       map.add(frames, in_turn, idle);
       frames.clear();
     }
-    std::string bytes;
+    FileBytes bytes;
     map.write(bytes);
-    return bytes;
+    return bytes.text();
   };
-  const auto expected = bytes_of(24, 1000);  // nothing is closed
+  const auto expected = bytes_of(24, 1000, 1 << 30);  // nothing is closed
   EXPECT_GT(expected.size(), 12u * 20000);
   for (const std::size_t together : {1, 5, 16})
-    for (const std::size_t idle : {0, 1, 7}) EXPECT_TRUE(bytes_of(together, idle) == expected) << together << " " << idle;
+    for (const std::size_t idle : {0, 1, 7})
+      for (const std::size_t memory : {0, 100000, 1 << 30})
+        EXPECT_TRUE(bytes_of(together, idle, memory) == expected) << together << " " << idle << " " << memory;
 }
 
 TEST(VoxelMap, KeepsOpenWhatTheSensorSeesHoweverLongTheWay) {
@@ -176,7 +179,7 @@ std::string document(std::size_t frames, const Eigen::Vector3d& start, const std
   PortOutput output;
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters({{"leaf", 0.5}, {"format", format}}).get(), inputs, {&output, 1}, context);
-  return output.one.as<Document>()->bytes;
+  return output.one.as<Document>()->bytes.text();
 }
 
 Cloud read_back(const std::string& bytes, const std::string& extension) {

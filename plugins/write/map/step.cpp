@@ -72,8 +72,7 @@ struct WriteMap : WholeStep {
       throw Error("no point is left for the map of " + std::to_string(frames) +
                   " frames: look at the ranges, leaves and filters before it (`counted:` says where points were dropped)");
     if (too_far) context.count("points too far from the map's origin dropped", too_far);
-    std::string bytes = map_header(map.size(), origin, params.format);
-    bytes.reserve(bytes.size() + 12 * map.size());
+    FileBytes bytes = map_header(map.size(), origin, params.format);
     map.write(bytes);
     return {{params.name, std::move(bytes)}};
   }

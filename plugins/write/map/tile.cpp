@@ -80,9 +80,25 @@ void Tile::close() {
   slots_ = std::vector<Cell>();  // {} would keep the memory
 }
 
+void Tile::sink(io::ScratchFile& file) {
+  if (packed_.empty()) return;
+  place_ = file.append(packed_.data(), packed_bytes());
+  words_ = static_cast<std::uint32_t>(packed_.size());
+  file_ = &file;
+  packed_ = std::vector<std::uint64_t>();
+}
+
+std::vector<std::uint64_t> Tile::packed() const {
+  if (!file_) return packed_;
+  std::vector<std::uint64_t> words(words_);
+  file_->read(place_, words.data(), words.size() * sizeof words[0]);
+  return words;
+}
+
 void Tile::open() {
-  const auto packed = std::move(packed_);
+  const auto packed = file_ ? this->packed() : std::move(packed_);
   packed_ = {};
+  file_ = nullptr;
   const std::size_t cells = used_;
   slots_.assign(cells * 3 / 2 + 8, {});
   used_ = 0;
@@ -93,7 +109,7 @@ std::vector<Cell> Tile::cells() const {
   if (!closed()) return sorted(slots_, used_);
   std::vector<Cell> cells;
   cells.reserve(used_);
-  unpack(packed_, used_, [&](const Cell& cell) { cells.push_back(cell); });
+  unpack(packed(), used_, [&](const Cell& cell) { cells.push_back(cell); });
   return cells;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "plumb/data/io/scratch_file.hpp"
+
 namespace plumb {
 
 /// One occupied cell: where in its tile it is, how many points it has had, and the sum of their places inside it. 16 bytes.
@@ -30,14 +32,18 @@ class Tile {
  public:
   /// Adds the points to the cell that they name; opens the tile if it is closed.
   void add(const Cell& cell) {
-    if (!packed_.empty()) open();
+    if (closed()) open();
     insert(cell);
   }
   /// Brings the place of a cell into the cache, should it be open.
   void prefetch(const Cell& cell) const;
   /// Packs the cells, without loss, into about a third of the memory.
   void close();
-  bool closed() const { return !packed_.empty(); }
+  bool closed() const { return !packed_.empty() || file_; }
+  /// Moves the packed cells into a file that outlives this; nothing happens while it is open. Throws Error when the disk does not take them.
+  void sink(io::ScratchFile& file);
+  /// Memory that the packed cells take [bytes].
+  std::size_t packed_bytes() const { return packed_.size() * sizeof(std::uint64_t); }
   std::size_t size() const { return used_; }  ///< cells
 
   /// The cells in the order of their places.
@@ -47,9 +53,13 @@ class Tile {
   void insert(const Cell& cell);
   void grow();
   void open();
+  std::vector<std::uint64_t> packed() const;
 
   std::vector<Cell> slots_;            ///< open addressing; grows by half, so it is 57 to 85 % full
   std::vector<std::uint64_t> packed_;  ///< where it has words, slots_ has none
+  const io::ScratchFile* file_ = nullptr;  ///< where they are if not in packed_
+  std::uint64_t place_ = 0;
+  std::uint32_t words_ = 0;
   std::uint32_t used_ = 0;
 };
 

@@ -40,6 +40,7 @@ bool same(const Cell& a, const Cell& b) { return a.place == b.place && a.count =
 TEST(Tile, HoldsWhatAMapOfCellsHoldsHoweverOftenItIsClosed) {
   for (const std::uint32_t every : {1u, 7u, 1000u, 100000u}) {
     Random random(every);
+    io::ScratchFile file;
     Tile tile;
     std::map<std::uint16_t, Cell> expected;
     for (int k = 0; k < (every == 1 ? 500 : every == 7 ? 3000 : 20000); ++k) {
@@ -48,6 +49,7 @@ TEST(Tile, HoldsWhatAMapOfCellsHoldsHoweverOftenItIsClosed) {
       const auto [at, is_new] = expected.try_emplace(cell.place, cell);
       if (!is_new) at->second.add(cell);
       if (random.below(every) == 0) tile.close();
+      if (random.below(3 * every) == 0) tile.sink(file);
     }
     ASSERT_EQ(tile.size(), expected.size());
     for (int round = 0; round < 2; ++round, tile.close()) {

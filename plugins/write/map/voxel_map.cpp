@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "give_back.hpp"
+#include "plumb/data/error.hpp"
 
 namespace plumb {
 namespace {
@@ -82,6 +84,14 @@ VoxelMap::FrameCells by_tile(const std::vector<NamedCell>& found) {
   return frame;
 }
 
+template <class Body>
+void each(const VoxelMap::Parallel& parallel, std::size_t count, const Body& body) {
+  constexpr std::size_t together = 8;  // tiles a task: most are small
+  parallel((count + together - 1) / together, [&](std::size_t task) {
+    for (std::size_t k = task * together; k < std::min(count, (task + 1) * together); ++k) body(k);
+  });
+}
+
 }  // namespace
 
 VoxelMap::FrameCells VoxelMap::cells_of(const Cloud& cloud, const Pose& T_world_cloud) const {
@@ -155,14 +165,8 @@ void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel,
     }
     ++work.back().end;
   }
-  constexpr std::uint32_t ahead = 8;    // cells whose slots are fetched early
-  constexpr std::size_t together = 8;  // tiles a task: most are small
-  const auto each = [&](std::size_t count, const auto& body) {
-    parallel((count + together - 1) / together, [&](std::size_t task) {
-      for (std::size_t k = task * together; k < std::min(count, (task + 1) * together); ++k) body(k);
-    });
-  };
-  each(work.size(), [&](std::size_t k) {
+  constexpr std::uint32_t ahead = 8;  // cells whose slots are fetched early
+  each(parallel, work.size(), [&](std::size_t k) {
     for (std::size_t n = work[k].first; n < work[k].end; ++n) {
       const FrameCells& frame = frames[pieces[n].frame];
       const auto& part = frame.parts[pieces[n].part];
@@ -175,8 +179,26 @@ void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel,
 
   frames_ += frames.size();
   const auto still = std::partition(open_.begin(), open_.end(), [&](const Entry* e) { return e->last + idle > frames_; });
-  each(static_cast<std::size_t>(open_.end() - still), [&](std::size_t k) { still[static_cast<std::ptrdiff_t>(k)]->tile.close(); });
+  const std::span<Entry* const> idle_ones(still, open_.end());
+  each(parallel, idle_ones.size(), [&](std::size_t k) { idle_ones[k]->tile.close(); });
+  sink(idle_ones, parallel);
   open_.erase(still, open_.end());
+}
+
+/// Once the closed tiles take more memory than they may, all of them go to disk, and from then on each that is closed.
+void VoxelMap::sink(std::span<Entry* const> closed, const Parallel& parallel) {
+  if (!scratch_) {
+    for (const Entry* entry : closed) packed_ += entry->tile.packed_bytes();  // one that was opened meanwhile counts twice: about is enough
+    if (packed_ <= memory_) return;
+    try {
+      scratch_ = std::make_unique<io::ScratchFile>();
+    } catch (const Error&) {  // then it has to be memory
+      memory_ = std::numeric_limits<std::size_t>::max();
+      return;
+    }
+    for (auto& [key, entry] : tiles_) entry.tile.sink(*scratch_);
+  }
+  each(parallel, closed.size(), [&](std::size_t k) { closed[k]->tile.sink(*scratch_); });
 }
 
 std::size_t VoxelMap::size() const {
@@ -191,7 +213,7 @@ std::size_t VoxelMap::open() const {
   return n;
 }
 
-void VoxelMap::write(std::string& bytes) {
+void VoxelMap::write(FileBytes& bytes) {
   std::vector<std::uint64_t> order;
   for (const auto& [key, entry] : tiles_) order.push_back(key);
   std::ranges::sort(order);
@@ -212,7 +234,7 @@ void VoxelMap::write(std::string& bytes) {
         const double inside = (static_cast<double>(cell.sum[a]) / cell.count + 0.5) / parts;
         place[a] = static_cast<float>(leaf_ * (static_cast<double>(at[a]) + inside));
       }
-      bytes.append(reinterpret_cast<const char*>(place), sizeof place);
+      bytes.append({reinterpret_cast<const char*>(place), sizeof place});
     }
   }
   open_.clear();

@@ -3,25 +3,27 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "plumb/data/cloud.hpp"
+#include "plumb/data/file_bytes.hpp"
 #include "plumb/geometry/pose.hpp"
 #include "tile.hpp"
 
 namespace plumb {
 
 /// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should one come: what is open is what the
-/// sensor sees at present, however long the way. What is written depends on the points in each cell and their frames' order alone.
+/// sensor sees at present, however long the way. Closed tiles wait in a temporary file once they are many. What is written depends on the points in each cell and their frames' order alone.
 class VoxelMap {
  public:
   using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-  /// Cells of edge length `leaf` [m], counted from `origin` [m, world].
-  VoxelMap(double leaf, const Eigen::Vector3d& origin) : leaf_(leaf), origin_(origin) {}
+  /// Cells of edge length `leaf` [m], counted from `origin` [m, world]. Closed tiles take `memory` [bytes] before they go to disk.
+  VoxelMap(double leaf, const Eigen::Vector3d& origin, std::size_t memory = std::size_t{32} << 20) : leaf_(leaf), origin_(origin), memory_(memory) {}
 
   /// The cells of one frame, tile by tile.
   struct FrameCells {
@@ -42,15 +44,18 @@ class VoxelMap {
   std::size_t size() const;      ///< cells
   std::size_t open() const;      ///< cells of tiles that are open
   /// Appends the mean of each cell, relative to the origin [m], as three float32 a point, by tile and place. Frees the cells as it goes.
-  void write(std::string& bytes);
+  void write(FileBytes& bytes);
 
  private:
   struct Entry {
     Tile tile;
     std::uint64_t last = 0;  ///< frame that met it
   };
+  void sink(std::span<Entry* const> closed, const Parallel& parallel);
   double leaf_;
   Eigen::Vector3d origin_;
+  std::size_t memory_, packed_ = 0;            ///< [bytes]: what closed tiles may take, and take
+  std::unique_ptr<io::ScratchFile> scratch_;   ///< of the closed tiles, once they were too much
   std::unordered_map<std::uint64_t, Entry> tiles_;
   std::vector<Entry*> open_;  ///< tiles that are not closed
   std::uint64_t frames_ = 0;

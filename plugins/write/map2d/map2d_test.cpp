@@ -36,9 +36,10 @@ TEST(WriteMap2d, WritesPgmWithTheTopRowFirst) {
   const auto document = written("pgm");
   EXPECT_EQ(document.name, "map.pgm");
   const std::string header = "P5\n3 2\n255\n";
-  ASSERT_TRUE(document.bytes.starts_with(header));
+  const std::string bytes = document.bytes.text();
+  ASSERT_TRUE(bytes.starts_with(header));
   std::vector<int> pixels;
-  for (const char c : document.bytes.substr(header.size()))
+  for (const char c : bytes.substr(header.size()))
     pixels.push_back(static_cast<std::uint8_t>(c));
   EXPECT_THAT(pixels, ElementsAre(0, 254, 205, 205, 205, 0));
 }
@@ -47,7 +48,7 @@ TEST(WriteMap2d, WritesTheYamlThatMapServerReads) {
   const auto document = written("yaml", "floor");
   EXPECT_EQ(document.name, "floor.yaml");
   EXPECT_EQ(
-      document.bytes,
+      document.bytes.text(),
       "image: floor.pgm\nmode: trinary\nresolution: 0.05\norigin: [-1.25, 2.5, 0.0]\nnegate: 0\n"
       "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
@@ -66,9 +67,10 @@ TEST(WriteMap2d, IsReadBackByMapServersRuleAsItWasDecided) {
 
 TEST(WriteMap2d, WritesAPngThatLibpngReadsBack) {
   const auto document = written("png");
+  const std::string bytes = document.bytes.text();
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(png_image_begin_read_from_memory(&png, document.bytes.data(), document.bytes.size()));
+  ASSERT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()));
   EXPECT_EQ(png.width, 3u);
   EXPECT_EQ(png.height, 2u);
   png.format = PNG_FORMAT_GRAY;

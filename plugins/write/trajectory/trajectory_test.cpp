@@ -27,7 +27,7 @@ Document written(const ParameterValues& values, std::vector<double> stamps = {1.
 TEST(WriteTrajectory, WritesALineAFrameWithStampPositionAndQuaternion) {
   const auto document = written({});
   EXPECT_EQ(document.name, "trajectory.tum");
-  std::istringstream lines(document.bytes);
+  std::istringstream lines(document.bytes.text());
   double v[16];
   for (double& x : v) ASSERT_TRUE(lines >> x);
   EXPECT_THAT(std::vector<double>(v, v + 8), testing::ElementsAre(1.5, 0, 0, 0, 0, 0, 0, 1));
@@ -35,7 +35,7 @@ TEST(WriteTrajectory, WritesALineAFrameWithStampPositionAndQuaternion) {
 }
 
 TEST(WriteTrajectory, KeepsTheOrderOfFramesWhereStampsStepBack) {
-  const auto lines = written({}, {976052857.5, 976052857.25}).bytes;
+  const auto lines = written({}, {976052857.5, 976052857.25}).bytes.text();
   EXPECT_TRUE(lines.starts_with("976052857.500000 "));
   EXPECT_THAT(lines, testing::HasSubstr("\n976052857.250000 "));
 }
@@ -43,7 +43,7 @@ TEST(WriteTrajectory, KeepsTheOrderOfFramesWhereStampsStepBack) {
 TEST(WriteTrajectory, WritesMatricesForKitti) {
   const auto document = written({{"format", std::string("kitti")}, {"name", std::string("p.txt")}});
   EXPECT_EQ(document.name, "p.txt");
-  std::istringstream lines(document.bytes);
+  std::istringstream lines(document.bytes.text());
   std::vector<double> v(24);
   for (double& x : v) ASSERT_TRUE(lines >> x);
   EXPECT_EQ(std::vector<double>(v.begin() + 12, v.end()),

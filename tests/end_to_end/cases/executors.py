@@ -3,7 +3,7 @@ import os
 import subprocess
 import time
 
-from one_node_slurm import OneNodeSlurm, processes_with, wait_until
+from one_node_slurm import OneNodeSlurm, free_port, processes_with, wait_until
 from plumb_test import CASCADE, PLUMB, SOURCE, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence
 
 PROFILE = "partition: main\ncpus: 1\nchunk: 8\nsubmit_above: 0 s   # everything goes to the cluster\npoll: 0.3 s\n"
@@ -131,6 +131,18 @@ def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
     refused(plumb(*good, "--memory", "1MiB", code=WRONG_INPUT), "too little")
     refused(plumb("worker", "--store", folder / "s2", code=WRONG_INPUT), "not by hand")
     plumb(*good, "--executor", "condor", code=WRONG_COMMAND_LINE).has("condor")
+    assert not (folder / "out").exists()
+
+
+def test_a_slurm_that_does_not_answer_or_lacks_the_partition_is_refused_before_anything_runs(folder):
+    (folder / "profile.yaml").write_text("partition: nightly\n")
+    good = words(folder, "out", "--store", folder / "store", "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
+    (folder / "slurm.conf").write_text(f"ClusterName=none\nSlurmctldHost=localhost(127.0.0.1)\nSlurmctldPort={free_port()}\nNodeName=localhost\n"
+                                       "MessageTimeout=1\nPartitionName=main Nodes=ALL\n")
+    refused(plumb(*good, code=WRONG_INPUT, environment={"SLURM_CONF": str(folder / "slurm.conf")}), "--executor slurm", "without --executor")
+    with OneNodeSlurm(folder / "slurm") as slurm:
+        refused(plumb(*good, code=WRONG_INPUT, environment={"SLURM_CONF": slurm.environment["SLURM_CONF"]}),
+                "no partition 'nightly'", "it has: main")
     assert not (folder / "out").exists()
 
 

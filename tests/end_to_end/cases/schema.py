@@ -120,7 +120,7 @@ def test_and_the_command_refuse_the_same_mistakes(folder):
 # Wrong for the command alone: a schema cannot follow names.
 BEYOND_A_SCHEMA = {
     "a wire from a step that is not there": ("{frames: ranged, ranges: ranges.ranges}", "{frames: rangde, ranges: ranges.ranges}"),
-    "a wire of another type": ("from: thinned, with: {neighbours", "from: sequence.frames, with: {neighbours"),
+    "a wire of another type": ("from: merged, with: {neighbours", "from: sequence.frames, with: {neighbours"),
     "a value from nowhere": ("leaf: $map_leaf", "leaf: $map_leav"),
     "a parameter that nothing uses": ("parameters:\n", "parameters:\n  spare: {type: number, default: 1}\n"),
     "rows of different lengths": ("gate: [4 m, 2 m, 1 m]", "gate: [4 m, 2 m, 1 m]\n        other: [1, 2]"),

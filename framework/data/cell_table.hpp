@@ -1,0 +1,83 @@
+#pragma once
+/// Finds the occupied cells of a grid by their keys.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace plumb {
+
+/// Cells, plain structs with a `key`, numbered 0, 1, 2 ... in the order in which their keys are first asked for.
+///
+/// A hash table with open addressing holds their numbers, 4 bytes each; the cells lie in blocks, which growing does not move. Most of both is far from the
+/// processor, so keys come in batches: all their slots and then all their cells are fetched ahead, and the waits overlap.
+template <class Cell>
+class CellTable {
+ public:
+  static constexpr std::size_t batch = 256;
+
+  /// The numbers of `n` <= batch keys. A cell that is new is zero but for its key.
+  void find(const std::uint64_t* keys, std::size_t n, std::uint32_t* numbers) {
+    if (8 * (count_ + batch) > 5 * slots_.size()) grow();
+    std::uint64_t at[batch];
+    for (std::size_t k = 0; k < n; ++k) {
+      at[k] = place_of(keys[k]);
+      __builtin_prefetch(&slots_[at[k]], 1);
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      if (const std::uint32_t slot = slots_[at[k]]) __builtin_prefetch(&(*this)[slot - 1], 1);
+    for (std::size_t k = 0; k < n; ++k) numbers[k] = number_of(keys[k], at[k]);
+  }
+  std::uint32_t count() const { return count_; }
+
+  Cell& operator[](std::uint32_t number) {
+    const std::uint32_t shifted = number + first_block;  // block b holds first_block << b cells
+    const int block = std::bit_width(shifted) - std::bit_width(first_block);
+    return blocks_[static_cast<std::size_t>(block)][shifted - (first_block << block)];
+  }
+
+ private:
+  static constexpr std::uint32_t first_block = 512;
+
+  std::uint32_t number_of(std::uint64_t key, std::uint64_t at) {
+    while (const std::uint32_t slot = slots_[at]) {
+      if ((*this)[slot - 1].key == key) return slot - 1;
+      at = (at + 1) & (slots_.size() - 1);
+    }
+    add_block();
+    ((*this)[count_] = Cell{}).key = key;
+    slots_[at] = ++count_;
+    return count_ - 1;
+  }
+  void add_block() {
+    const std::uint32_t shifted = count_ + first_block;
+    if (!std::has_single_bit(shifted)) return;
+    blocks_[static_cast<std::size_t>(std::bit_width(shifted) - std::bit_width(first_block))] = std::make_unique_for_overwrite<Cell[]>(shifted);
+  }
+  /// Where a key's slot is, or the first to look at: the highest bits of its product with odd numbers.
+  std::uint64_t place_of(std::uint64_t key) const {
+    key *= 0x9e3779b97f4a7c15ull;
+    key ^= key >> 32;
+    return key * 0xd6e8feb86659fd93ull >> shift_;
+  }
+  /// The cells know their keys, so the old table need not stay while the new one is filled.
+  void grow() {
+    slots_ = std::vector<std::uint32_t>();
+    slots_.resize(std::size_t{1} << (64 - --shift_));
+    for (std::uint32_t number = 0; number < count_; ++number) {
+      std::uint64_t at = place_of((*this)[number].key);
+      while (slots_[at]) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = number + 1;
+    }
+  }
+
+  int shift_ = 64 - 10;
+  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(std::size_t{1} << 10);  ///< number + 1; a power of two, at most 5/8 full
+  std::array<std::unique_ptr<Cell[]>, 23> blocks_;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace plumb
