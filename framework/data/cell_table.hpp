@@ -12,8 +12,9 @@ namespace plumb {
 
 /// Cells, plain structs with a `key`, numbered 0, 1, 2 ... in the order in which their keys are first asked for.
 ///
-/// A hash table with open addressing holds their numbers, 4 bytes each; the cells lie in blocks, which growing does not move. Most of both is far from the
-/// processor, so keys come in batches: all their slots and then all their cells are fetched ahead, and the waits overlap.
+/// A hash table with open addressing holds their numbers and a part of their hashes; the cells, which alone know their keys, lie in blocks, which growing
+/// does not move. Most of both is far from the processor, so keys come in batches: all their slots and then all their cells are fetched ahead, and
+/// the waits overlap.
 template <class Cell>
 class CellTable {
  public:
@@ -22,14 +23,17 @@ class CellTable {
   /// The numbers of `n` <= batch keys. A cell that is new is zero but for its key.
   void find(const std::uint64_t* keys, std::size_t n, std::uint32_t* numbers) {
     if (8 * (count_ + batch) > 5 * slots_.size()) grow();
-    std::uint64_t at[batch];
+    std::uint64_t hashes[batch];
+    std::size_t at[batch];
     for (std::size_t k = 0; k < n; ++k) {
-      at[k] = place_of(keys[k]);
-      __builtin_prefetch(&slots_[at[k]], 1);
+      hashes[k] = hash_of(keys[k]);
+      __builtin_prefetch(&slots_[place_of(hashes[k])], 1);
     }
-    for (std::size_t k = 0; k < n; ++k)
-      if (const std::uint32_t slot = slots_[at[k]]) __builtin_prefetch(&(*this)[slot - 1], 1);
-    for (std::size_t k = 0; k < n; ++k) numbers[k] = number_of(keys[k], at[k]);
+    for (std::size_t k = 0; k < n; ++k) {
+      at[k] = next(place_of(hashes[k]), hashes[k]);
+      if (slots_[at[k]].number) __builtin_prefetch(&(*this)[slots_[at[k]].number - 1], 1);
+    }
+    for (std::size_t k = 0; k < n; ++k) numbers[k] = number_of(keys[k], hashes[k], at[k]);
   }
   std::uint32_t count() const { return count_; }
 
@@ -41,15 +45,29 @@ class CellTable {
 
  private:
   static constexpr std::uint32_t first_block = 512;
+  struct Slot {
+    std::uint32_t number = 0;  ///< of the cell, + 1; 0: unused
+    std::uint32_t hash = 0;    ///< the low half: another one is another cell
+  };
 
-  std::uint32_t number_of(std::uint64_t key, std::uint64_t at) {
-    while (const std::uint32_t slot = slots_[at]) {
-      if ((*this)[slot - 1].key == key) return slot - 1;
-      at = (at + 1) & (slots_.size() - 1);
-    }
+  static std::uint64_t hash_of(std::uint64_t key) {
+    key *= 0x9e3779b97f4a7c15ull;
+    key ^= key >> 32;
+    return key * 0xd6e8feb86659fd93ull;
+  }
+  /// Where a key's slot is, or the first to look at: the highest bits of its hash.
+  std::size_t place_of(std::uint64_t hash) const { return static_cast<std::size_t>(hash >> shift_); }
+  /// From `at` on, the first slot that may be the key's or is unused.
+  std::size_t next(std::size_t at, std::uint64_t hash) const {
+    while (slots_[at].number && slots_[at].hash != static_cast<std::uint32_t>(hash)) at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
+  std::uint32_t number_of(std::uint64_t key, std::uint64_t hash, std::size_t at) {
+    for (at = next(at, hash); slots_[at].number; at = next((at + 1) & (slots_.size() - 1), hash))
+      if ((*this)[slots_[at].number - 1].key == key) return slots_[at].number - 1;
     add_block();
     ((*this)[count_] = Cell{}).key = key;
-    slots_[at] = ++count_;
+    slots_[at] = {++count_, static_cast<std::uint32_t>(hash)};
     return count_ - 1;
   }
   void add_block() {
@@ -57,25 +75,20 @@ class CellTable {
     if (!std::has_single_bit(shifted)) return;
     blocks_[static_cast<std::size_t>(std::bit_width(shifted) - std::bit_width(first_block))] = std::make_unique_for_overwrite<Cell[]>(shifted);
   }
-  /// Where a key's slot is, or the first to look at: the highest bits of its product with odd numbers.
-  std::uint64_t place_of(std::uint64_t key) const {
-    key *= 0x9e3779b97f4a7c15ull;
-    key ^= key >> 32;
-    return key * 0xd6e8feb86659fd93ull >> shift_;
-  }
   /// The cells know their keys, so the old table need not stay while the new one is filled.
   void grow() {
-    slots_ = std::vector<std::uint32_t>();
+    slots_ = std::vector<Slot>();
     slots_.resize(std::size_t{1} << (64 - --shift_));
     for (std::uint32_t number = 0; number < count_; ++number) {
-      std::uint64_t at = place_of((*this)[number].key);
-      while (slots_[at]) at = (at + 1) & (slots_.size() - 1);
-      slots_[at] = number + 1;
+      const std::uint64_t hash = hash_of((*this)[number].key);
+      std::size_t at = place_of(hash);
+      while (slots_[at].number) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = {number + 1, static_cast<std::uint32_t>(hash)};
     }
   }
 
   int shift_ = 64 - 10;
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(std::size_t{1} << 10);  ///< number + 1; a power of two, at most 5/8 full
+  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 10);  ///< a power of two, at most 5/8 full
   std::array<std::unique_ptr<Cell[]>, 23> blocks_;
   std::uint32_t count_ = 0;
 };

@@ -21,8 +21,8 @@ bool all_finite(const std::vector<float>& values) {
   return special == 0;
 }
 
-/// What a cell gathers.
-struct Cell {
+/// What a cell gathers: one line of the cache.
+struct alignas(64) Cell {
   std::uint64_t key;
   double x, y, z, intensity;
   float nearest;  ///< squared distance from which it was seen [m^2]; looked at from the second point on

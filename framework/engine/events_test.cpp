@@ -17,24 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Event::Kind;
 
-const char* const loop = R"(plumb: 1
-name: loop
-steps:
-  source: {use: test.source}
-  kept: {use: test.keep, from: source.frames}
-  merged: {use: test.merge, from: {frames: kept, ranges: source.ranges}}
-  edges: {use: test.chain, from: merged}
-  loop:
-    repeat:
-      passes: {gate: [4 m, 2 m, 1 m]}
-      carry: {poses: solved}
-    start: {poses: source.poses}
-    steps:
-      pairs: {use: test.pair, from: {edges: edges, segments: merged}}
-      near: {use: test.shift, from: {matches: pairs, poses: poses, edges: edges}, with: {gate: $gate}}
-      solved: {use: test.halve, from: {matches: near, poses: poses}}
-  out: {use: test.write, from: {metrics: loop.solved.metrics}}
-)";
+const std::string loop = "plumb: 1\nname: loop\n" + engine_test::halving_steps + "  out: {use: test.write, from: {metrics: loop.solved.metrics}}\n";
 
 /// An event with texts of its own.
 struct Told {

@@ -16,24 +16,7 @@ namespace {
 using engine_test::frames_opened, engine_test::pairs_made, engine_test::shifted_made;
 using testing::HasSubstr;
 
-const char* const cascade = R"(plumb: 1
-name: cascade
-about: a loop that halves
-steps:
-  source: {use: test.source}
-  kept: {use: test.keep, from: source.frames}
-  merged: {use: test.merge, from: {frames: kept, ranges: source.ranges}}
-  edges: {use: test.chain, from: merged}
-  loop:
-    repeat:
-      passes: {gate: [4 m, 2 m, 1 m]}
-      carry: {poses: solved}
-    start: {poses: source.poses}
-    steps:
-      pairs: {use: test.pair, from: {edges: edges, segments: merged}}
-      near: {use: test.shift, from: {matches: pairs, poses: poses, edges: edges}, with: {gate: $gate}}
-      solved: {use: test.halve, from: {matches: near, poses: poses}}
-  sums: {use: test.sum, from: kept}
+const std::string cascade = "plumb: 1\nname: cascade\nabout: a loop that halves\n" + engine_test::halving_steps + R"(  sums: {use: test.sum, from: kept}
   out: {use: test.write, from: {metrics: {last: loop.solved.metrics, sums: sums}}}
 )";
 

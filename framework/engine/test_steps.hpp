@@ -258,4 +258,21 @@ inline Registry registry() {
   return registry;
 }
 
+/// The steps of a pipeline that uses them, up to what it writes: frames are merged and paired, and a loop halves their shifts three times.
+inline const std::string halving_steps = R"(steps:
+  source: {use: test.source}
+  kept: {use: test.keep, from: source.frames}
+  merged: {use: test.merge, from: {frames: kept, ranges: source.ranges}}
+  edges: {use: test.chain, from: merged}
+  loop:
+    repeat:
+      passes: {gate: [4 m, 2 m, 1 m]}
+      carry: {poses: solved}
+    start: {poses: source.poses}
+    steps:
+      pairs: {use: test.pair, from: {edges: edges, segments: merged}}
+      near: {use: test.shift, from: {matches: pairs, poses: poses, edges: edges}, with: {gate: $gate}}
+      solved: {use: test.halve, from: {matches: near, poses: poses}}
+)";
+
 }  // namespace plumb::engine_test
