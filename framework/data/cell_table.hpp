@@ -22,7 +22,7 @@ class CellTable {
 
   /// The numbers of `n` <= batch keys. A cell that is new is zero but for its key.
   void find(const std::uint64_t* keys, std::size_t n, std::uint32_t* numbers) {
-    if (8 * (count_ + batch) > 5 * slots_.size()) grow();
+    if (4 * (count_ + batch) > 3 * slots_.size()) grow();
     std::uint64_t hashes[batch];
     std::size_t at[batch];
     for (std::size_t k = 0; k < n; ++k) {
@@ -36,6 +36,16 @@ class CellTable {
     for (std::size_t k = 0; k < n; ++k) numbers[k] = number_of(keys[k], hashes[k], at[k]);
   }
   std::uint32_t count() const { return count_; }
+  /// Hands on all cells in order, and lets go of their memory meanwhile.
+  template <class Take>
+  void take(const Take& take) {
+    slots_ = std::vector<Slot>();
+    for (std::uint32_t number = 0; number < count_; ++number) {
+      take((*this)[number]);
+      const std::uint32_t next = number + 1 + first_block;
+      if (std::has_single_bit(next)) blocks_[static_cast<std::size_t>(std::bit_width(next) - std::bit_width(first_block)) - 1].reset();
+    }
+  }
 
   Cell& operator[](std::uint32_t number) {
     const std::uint32_t shifted = number + first_block;  // block b holds first_block << b cells
@@ -88,7 +98,7 @@ class CellTable {
   }
 
   int shift_ = 64 - 10;
-  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 10);  ///< a power of two, at most 5/8 full
+  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 10);  ///< a power of two, at most 3/4 full
   std::array<std::unique_ptr<Cell[]>, 23> blocks_;
   std::uint32_t count_ = 0;
 };

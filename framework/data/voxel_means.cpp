@@ -162,13 +162,12 @@ VoxelMeans::Result VoxelMeans::take() {
   result.cloud.reserve(count);
   if (intensity) result.cloud.intensity.reserve(count);
   if (frames) result.frame.reserve(count);
-  for (std::uint32_t c = 0; c < count; ++c) {
-    const Cell& cell = cells[c];
+  cells.take([&](const Cell& cell) {
     const double share = 1.0 / cell.count;
     result.cloud.add(Eigen::Vector3d(share * cell.x, share * cell.y, share * cell.z).cast<float>());
     if (intensity) result.cloud.intensity.push_back(static_cast<float>(share * cell.intensity));
     if (frames) result.frame.push_back(cell.frame);
-  }
+  });
   state_->normals.write(result.cloud);
   return result;
 }

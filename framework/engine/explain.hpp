@@ -16,7 +16,7 @@ struct Explained {
   std::size_t made = 0, reused = 0;
   std::string why;     ///< the first thing that differs, with old and new value; empty when nothing does
 
-  /// "coarse.near, pass 2: 312 of 312 made: max was 1 m, is 0.8 m"
+  /// "coarse.near, pass 2: made, all 312: max was 1 m, is 0.8 m"
   std::string text() const;
 };
 

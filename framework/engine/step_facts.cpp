@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include <cstdio>
+
 #include "plumb/engine/step_run.hpp"
 
 namespace plumb {
@@ -14,7 +16,9 @@ std::string size_and_time(const std::string& path) {
   tm calendar{};
   gmtime_r(&at.st_mtim.tv_sec, &calendar);
   strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &calendar);
-  return std::to_string(at.st_size) + " bytes of " + text + "." + std::to_string(at.st_mtim.tv_nsec / 1000000) + " UTC";
+  char milliseconds[8];
+  std::snprintf(milliseconds, sizeof milliseconds, ".%03d", static_cast<int>(at.st_mtim.tv_nsec / 1000000));
+  return std::to_string(at.st_size) + " bytes of " + text + milliseconds + " UTC";
 }
 
 std::string short_hash(const Hasher& hasher) { return hasher.hash().text().substr(0, 12); }

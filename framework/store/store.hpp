@@ -35,7 +35,7 @@ enum class StoreRole { driver, worker };
 ///     DIR/index.*                what is known of them without opening them (index.hpp)
 ///
 /// A result is written to `new` and renamed, so that it is there whole or not at all after a kill; what a power cut tore is told by its checksum. Several
-/// threads, runs and machines may share a folder. All functions are safe from several threads.
+/// runs of one machine, and workers on any, may share a folder. All functions are safe from several threads.
 class Store {
  public:
   /// Opens or makes the folder. Throws Error: it is no store and not empty, a store of another format, or cannot be written.

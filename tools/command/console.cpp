@@ -24,12 +24,18 @@ Console::Console(bool quiet, const std::string& log_file)
     auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file, false);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
     log_->sinks().push_back(file);
+    log_->set_error_handler([this](const std::string& fault) { log_fault_ = fault; });
   }
 }
 
 Console::~Console() {
   clear();
   log_->flush();
+}
+
+std::string Console::log_fault() {
+  log_->flush();
+  return log_fault_;
 }
 
 void Console::clear() {

@@ -24,6 +24,8 @@ class Console final : public Observer {
   Console(bool quiet, const std::string& log_file);
   ~Console() override;
   void event(const Event& event) override;
+  /// Why the log file is not whole, as far as it was written; else empty.
+  std::string log_fault();
 
  private:
   void note(const std::string& sentence);
@@ -32,6 +34,7 @@ class Console final : public Observer {
   std::mutex mutex_;
   bool quiet_, terminal_;
   std::shared_ptr<spdlog::logger> log_;
+  std::string log_fault_;  ///< why the log file is not whole
   std::string path_;
   std::map<std::string, int> notes_;  ///< how often each kind was told
   std::size_t items_ = 0, done_ = 0;

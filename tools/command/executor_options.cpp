@@ -13,6 +13,9 @@
 namespace plumb::command {
 namespace {
 
+/// Less does not hold the program itself.
+constexpr std::uint64_t least_of_worker = std::uint64_t{64} << 20;
+
 std::uint64_t memory_of_machine() { return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
 
 }  // namespace
@@ -43,12 +46,17 @@ std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t 
   workers.command = words_of(worker);
   workers.time_limit = std::chrono::duration<double>(age_of_text("--time-limit", time_limit.empty() ? "1h" : time_limit)).count();
   if (*workers.time_limit <= 0 || *workers.time_limit > 1e8) throw Error("--time-limit " + time_limit + ": give a time above zero and below three years, as in 10min");
+  const auto require_enough = [&](std::uint64_t bytes, const std::string& given) {
+    if (bytes < least_of_worker) throw Error(given + ": leaves a worker " + text_of_bytes(bytes) + ", which is too little to run in; give 64MiB or more for each");
+  };
+  require_enough(worker.memory, !item_memory.empty() ? "--item-memory " + item_memory : "--memory for " + std::to_string(workers.workers) + " workers");
   if (!slurm) return std::make_unique<IsolatedExecutor>(std::move(workers));
   SlurmOptions options;
   if (!profile.empty()) options.profile = read_profile(profile);
   options.store = store->folder();
   options.fresh = fresh;
   if (item_memory.empty() && options.profile.memory > 0) worker.memory = options.profile.memory / options.profile.cpus;
+  require_enough(worker.memory, "memory of a chunk in " + profile.string());
   options.chunk_command = words_of(worker);
   options.chunk_command.insert(options.chunk_command.end(), {"--cpus", std::to_string(options.profile.cpus), "--time-limit", std::to_string(*workers.time_limit)});
   return std::make_unique<SlurmExecutor>(std::move(options), std::move(workers));

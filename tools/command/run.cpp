@@ -64,7 +64,8 @@ class Listeners {
     for (const auto& file : files_) list.push_back(file.get());
     return Observers(list);
   }
-  void say_of_files() {
+  void say_of_files(const std::filesystem::path& log) {
+    if (const std::string fault = console_.log_fault(); !fault.empty()) std::cerr << log.string() << ": is not whole: " << fault << "; the results are whole\n";
     for (const auto& file : files_)
       if (const std::string fault = file->fault(); !fault.empty()) std::cerr << fault << "; the results are whole\n";
   }
@@ -91,6 +92,13 @@ std::uint64_t memory_of_text(const std::string& text) {
   return bytes;
 }
 
+/// An empty value is a mistake of a script: taken as none it would run without its bound, or into the user's store.
+void require_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty()) throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
+}
+
 /// What leaves memory, and what workers make, goes through the store.
 void require_store(const Options& options, const Store* store) {
   if (store) return;
@@ -108,6 +116,7 @@ void run(const Options& options) {
                                             {"--events", options.events, "events", EventLines::mark},
                                             {"--trace", options.trace, "trace", TraceFile::mark}};
   require_elsewhere(side_files, options.output);
+  require_apart(options.store.folder(), options.output);
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
@@ -125,7 +134,7 @@ void run(const Options& options) {
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
     folder.fill(std::move(record), result);
-    listeners.say_of_files();
+    listeners.say_of_files(options.log);
     if (options.explain)
       for (const Explained& step : result.explained) std::cout << step.text() << "\n";
     if (store) say_of_store(*store, result, options.quiet);
@@ -165,7 +174,8 @@ void add_run(CLI::App& app) {
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
       "The results are the same for any number of threads. No results are left behind when a run fails or is interrupted.");
-  command->callback([options] {
+  command->callback([options, command] {
+    require_values(*command);
     if (options->locked.empty() && options->pipeline.file.empty()) throw CLI::RequiredError("PIPELINE or --locked");
     run(*options);
   });

@@ -8,26 +8,56 @@
 namespace plumb::command {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// What a path leads to; of one that leads nowhere or to no file (/dev/fd/63) itself.
+fs::path place_of(const fs::path& path) {
+  std::error_code error;
+  auto place = fs::weakly_canonical(path, error);
+  return error ? fs::absolute(path).lexically_normal() : place;
+}
+
+bool within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// The first bytes of a file.
+std::string begin_of(const fs::path& file, std::size_t size) {
+  std::string bytes(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+}  // namespace
+
 void require_elsewhere(const std::vector<SideFile>& files, const fs::path& output) {
-  const auto folder = fs::weakly_canonical(output);
+  const auto folder = place_of(output);
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (files[k].file.empty()) continue;
-    const auto file = fs::weakly_canonical(files[k].file);
+    const auto file = place_of(files[k].file);
     const std::string place = files[k].option + " " + files[k].file.string() + ": ";
-    const auto [end, _] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    if (end == folder.end()) throw Error(place + "lies in the folder for the results, which holds what steps wrote alone; name a file beside it");
+    if (within(file, folder)) throw Error(place + "lies in the folder for the results, which holds what steps wrote alone; name a file beside it");
     for (std::size_t n = 0; n < k; ++n)
-      if (!files[n].file.empty() && fs::weakly_canonical(files[n].file) == file)
-        throw Error(place + "is what " + files[n].option + " writes too; name another file");
+      if (!files[n].file.empty() && place_of(files[n].file) == file) throw Error(place + "is what " + files[n].option + " writes too; name another file");
   }
+}
+
+void require_apart(const fs::path& store, const fs::path& output) {
+  if (store.empty()) return;
+  const auto results = place_of(store), folder = place_of(output);
+  if (within(results, folder))
+    throw Error("--store " + store.string() + ": lies in the folder for the results, which holds what steps wrote alone; name a folder beside it");
+  if (within(folder, results)) throw Error("-o " + output.string() + ": lies in the store " + store.string() + ", which holds its own files alone; give another folder");
 }
 
 void begin(const SideFile& side) {
   const std::string place = side.option + " " + side.file.string() + ": ";
-  std::string first;
-  if (std::ifstream earlier(side.file); earlier) std::getline(earlier, first);
   std::error_code error;
-  if (fs::exists(side.file, error) && !(fs::is_regular_file(side.file) && (fs::file_size(side.file) == 0 || first.starts_with(side.mark))))
+  const auto status = fs::status(side.file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;  // a pipe or a device: nothing stands in it that could be lost
+  if (fs::is_directory(status) || (fs::is_regular_file(status) && fs::file_size(side.file) > 0 && begin_of(side.file, side.mark.size()) != side.mark))
     throw Error(place + "exists and is no " + side.what + " of plumb; name another file");
   std::ofstream out(side.file);
   out.close();

@@ -18,7 +18,10 @@ struct SideFile {
 /// Throws Error.
 void require_elsewhere(const std::vector<SideFile>& files, const std::filesystem::path& output);
 
-/// Empties the file; an earlier one of the same kind is replaced. Throws Error: something else is there; it cannot be written.
+/// Makes sure that neither the store (empty: there is none) nor the folder for the results lies in the other. Throws Error.
+void require_apart(const std::filesystem::path& store, const std::filesystem::path& output);
+
+/// Empties the file; an earlier one of the same kind is replaced, pipes and devices are left as they are. Throws Error: something else is there; it cannot be written.
 void begin(const SideFile& file);
 
 }  // namespace plumb::command

@@ -51,7 +51,8 @@ void say_faults(const Store& store) {
   if (const std::string why = store.index_rebuilt(); !why.empty())
     std::cerr << "store: its index was damaged (" << why << ") and has been made anew from the results\n";
   if (const std::string fault = store.fault(); !fault.empty())
-    std::cerr << "store: from some result on nothing was kept (" << fault << "); the run and what is kept already are whole\n";
+    std::cerr << "store: from some result on nothing was kept in " << store.folder().string() << " (" << fault
+              << "); the run and what is kept already are whole; make room (plumb cache prune), or name another folder with --store\n";
   else if (const std::string index = store.index_fault(); !index.empty())
     std::cerr << "store: its index is not used (" << index << "); results are kept and found without it\n";
 }

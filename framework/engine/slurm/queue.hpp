@@ -1,5 +1,5 @@
 #pragma once
-/// Slurm as its command line has it: sbatch, squeue, scancel. Nothing else of Plumb knows it.
+/// Slurm as its command line has it: sinfo, sbatch, squeue, scancel. Nothing else of Plumb knows it.
 
 #include <string>
 #include <vector>

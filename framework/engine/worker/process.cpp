@@ -24,7 +24,8 @@ constexpr std::uint64_t longest_message = std::uint64_t{1} << 36;
 bool read_all(int socket, char* to, std::size_t size, Deadline deadline) {
   while (size > 0) {
     if (deadline) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(*deadline - std::chrono::steady_clock::now()).count();
+      // Rounded up: who is told false at the deadline finds that it has passed.
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline - std::chrono::steady_clock::now()).count();
       pollfd waiting{socket, POLLIN, 0};
       const int ready = poll(&waiting, 1, static_cast<int>(std::clamp<long>(left, 0, 1 << 30)));
       if (ready < 0 && errno == EINTR) continue;

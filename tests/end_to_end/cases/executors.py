@@ -125,6 +125,8 @@ def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
     refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "there is no such file")
     refused(plumb(*good, "--executor-profile", profile, code=WRONG_INPUT), "--executor slurm, which is not given")
     refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--isolate")
+    refused(plumb(*good, "--isolate", "--item-memory", "10MiB", code=WRONG_INPUT), "--item-memory 10MiB", "64MiB or more")
+    refused(plumb(*good, "--isolate", "--memory", "256MiB", "--threads", "8", code=WRONG_INPUT), "--memory for 8 workers", "32 MiB")
     refused(plumb(*words(folder, "out", "--store", "none", "--isolate"), code=WRONG_INPUT), "a store is needed")
     refused(plumb(*words(folder, "out", "--store", "none", "--memory", "2GiB"), code=WRONG_INPUT), "a store is needed")
     refused(plumb(*good, "--memory", "2 apples", code=WRONG_INPUT), "--memory", "GiB")

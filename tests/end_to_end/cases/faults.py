@@ -140,3 +140,8 @@ def test_on_error_is_checked(folder):
     file.write_text(file.read_text().replace(", on_error: dorp", "").replace("with: {max: 1 m}", "with: {max: 1 m}, on_error: drop")
                     .replace("from: sequence.trajectory, with: {frames: 5}", "from: sequence.trajectory, with: {frames: 5}, on_error: drop"))
     plumb("--plugin-path", MODULES, "check", file, "--set", f"input={sequence('street')}", code=1).has("on_error: drop is for steps that give an edge's Matches")
+
+
+def test_a_time_limit_is_named_however_short_it_is(folder):
+    for number, limit in enumerate(("0.003s", "0.02s", "0.11s", "0.3s")):
+        run(folder, "out", "loop", "--isolate", "--time-limit", limit, store=f"store{number}").has(f"time limit of {limit[:-1]} s (--time-limit)")

@@ -107,3 +107,27 @@ def test_no_point_left_is_said(folder):
     said = cascade(sequence("street"), folder / "out", "--set", "ranges.frames=2", "--set", "min_range=190m", "--set", "max_range=200m", code=STEP_FAILED)
     said.has("no point is left for the map")
     nothing_left(folder / "out")
+
+
+def test_the_store_and_the_results_lie_apart(folder):
+    run(folder, "-o", folder / "out", "--store", folder / "store")
+    refused(run(folder, "-o", folder / "out", "--store", folder / "out/store", code=WRONG_INPUT), "--store", "beside")
+    refused(run(folder, "-o", folder / "store/out", "--store", folder / "store", code=WRONG_INPUT), "lies in the store", "another folder")
+    assert not (folder / "out/store").exists() and not (folder / "store/out").exists()
+    run(folder, "-o", folder / "out", "--store", folder / "store")
+
+
+def test_an_empty_value_is_not_taken_for_none(folder):
+    for option in ("--memory", "--store", "--log", "--events", "--time-limit", "--item-memory"):
+        refused(run(folder, "-o", folder / "out", option, "", code=WRONG_INPUT), option, "is empty")
+    assert not (folder / "out").exists()
+
+
+def test_events_go_into_a_pipe_and_to_a_device(folder):
+    os.mkfifo(folder / "pipe")
+    reader = subprocess.Popen(["cat", folder / "pipe"], stdout=subprocess.PIPE, text=True)
+    run(folder, "-o", folder / "out", "--events", folder / "pipe", "--trace", "/dev/null")
+    told, _ = reader.communicate(timeout=60)
+    assert told.startswith('{"event":"run_begins"') and '"event":"run_ends"' in told.splitlines()[-1]
+    run(folder, "-o", folder / "out", "--log", "/dev/full").has("/dev/full: is not whole", "the results are whole")
+    assert set(files_of(folder / "out")) == {"trajectory.tum", "run.lock.yaml"}

@@ -118,7 +118,7 @@ def test_a_full_disk_costs_the_keeping_alone(folder):
         raise SystemExit(77)
     try:
         command = ["run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", small / "store"]
-        plumb(*command, "-o", folder / "full").has("nothing was kept", "No space left")
+        plumb(*command, "-o", folder / "full").has("nothing was kept", "No space left", "make room")
         plumb(*command, "-o", folder / "again")
         assert files_of(folder / "full") == expected == files_of(folder / "again")
     finally:
