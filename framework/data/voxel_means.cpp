@@ -46,7 +46,7 @@ class Axis {
     if (least_ > greatest_) low_ = std::floor((lowest + highest + 1) / 2) - most_cells / 2;
     if (lowest < low_ || highest >= low_ + most_cells)
       throw Error(std::string("the cloud reaches from ") + short_number(least) + " m to " + short_number(greatest) + " m along " + name_ +
-                  ", which is more than 2^21 cells of " + short_number(leaf_) + " m: drop far points with filter.distance, or raise leaf");
+                  ", which is more than 2^21 cells of " + short_number(leaf_) + " m: drop far points before, or raise leaf");
     least_ = least, greatest_ = greatest;
   }
   void cells(const std::vector<float>& values, std::size_t first, std::size_t n, std::uint32_t* to) const {
