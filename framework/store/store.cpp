@@ -27,25 +27,33 @@ std::string new_token() {
   return std::to_string((std::uint64_t{device()} << 32) | device());
 }
 
+bool holds_more_than_marks(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (!entry.path().filename().string().starts_with(mark_file)) return true;
+  return false;
+}
+
 }  // namespace
 
 Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(folder).lexically_normal()), token_(new_token()) {
   const auto refuse = [&](const std::string& why) { throw Error("--store " + folder.string() + ": " + why); };
   std::error_code error;
   const fs::path marked = folder_ / mark_file;
-  if (fs::exists(marked, error)) {
-    std::string line(MappedFile(marked).bytes());
-    line.resize(std::min(line.find('\n'), line.size()));
-    if (line != mark)
-      refuse("is a store of another format ('" + line.substr(0, 40) + "', this program has '" + mark + "'); give another folder");
-  } else {
+  if (!fs::exists(marked, error)) {
     if (role == StoreRole::worker) refuse("there is no store; a worker must see the folder of its run at the same place");
-    if (fs::exists(folder_, error) && (!fs::is_directory(folder_) || !fs::is_empty(folder_)))
+    // Another run may be making it at this moment: its mark is there before anything else is.
+    if (fs::exists(folder_, error) && (!fs::is_directory(folder_) || holds_more_than_marks(folder_)) && !fs::exists(marked, error))
       refuse("holds something else and is no store; give a folder that is new or empty");
     fs::create_directories(folder_, error);
     const fs::path fresh = folder_ / (std::string(mark_file) + "." + std::to_string(getpid()));
     if (!error && write_whole(fresh, std::string(mark) + "\n")) fs::rename(fresh, marked, error);
     else if (!error) error = {errno, std::generic_category()};
+  }
+  if (!error) {
+    std::string line(MappedFile(marked).bytes());
+    line.resize(std::min(line.find('\n'), line.size()));
+    if (line != mark)
+      refuse("is a store of another format ('" + line.substr(0, 40) + "', this program has '" + mark + "'); give another folder");
   }
   for (const char* inner : {"blobs", "new"})
     if (!error) fs::create_directories(folder_ / inner, error);
