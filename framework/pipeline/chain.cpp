@@ -93,6 +93,15 @@ bool lone_overlay(const Node& tree, Diagnostics& diagnostics) {
   return false;
 }
 
+/// The edits under 'also' of a file for one of the pipelines `done`, or null.
+const Node* also_for(const Chain::Link& link, const std::vector<fs::path>& done) {
+  const Node* also = link.tree.at("also");
+  if (!also || !also->is_map()) return nullptr;
+  for (const Entry& entry : also->entries)
+    if (applied(done, fs::weakly_canonical(link.canonical.parent_path() / entry.key))) return &entry.value;
+  return nullptr;
+}
+
 /// Lays over what of a preset's chain is not there yet.
 void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
            std::vector<std::string>& files, Diagnostics& diagnostics) {
@@ -106,9 +115,18 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
     return;
   }
   if (!applied(done, chain.links.front().canonical)) {
+    bool any = false;
+    for (const auto& link : chain.links)
+      if (const Node* edits = also_for(link, done)) {
+        apply_also(pipeline, *edits, diagnostics);
+        files.push_back(link.file);
+        any = true;
+      }
+    if (any) return;
     diagnostics.add(chain.links[1].tree.at("extends")->origin,
                     "this preset extends '" + chain.links.front().file + "', not the pipeline '" +
-                        files.front() + "'.");
+                        files.front() + "'.",
+                    "Run it by itself, or name the edits for that pipeline in it under 'also'.");
     return;
   }
   for (const auto& link : chain.links) {

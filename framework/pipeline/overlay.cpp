@@ -176,19 +176,27 @@ void remove_steps(Node& pipeline, const Node& overlay, Diagnostics& diagnostics)
   }
 }
 
-}  // namespace
-
-void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
-  static const std::vector<std::string> known = {"plumb",  "name",    "about", "extends",
-                                                 "remove", "replace", "add",   "set"};
+/// Every key is one of `known`; `also` holds edits for other pipelines.
+void check_keys(const Node& overlay, const std::vector<std::string>& known, const char* what, Diagnostics& diagnostics) {
   for (const Entry& entry : overlay.entries)
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
-      diagnostics.add(entry.origin, "an overlay has no key '" + entry.key + "'.",
+      diagnostics.add(entry.origin, std::string(what) + " has no key '" + entry.key + "'.",
                       did_you_mean(entry.key, known));
-  const Entry* version = overlay.find("plumb");
-  if (!version)
-    diagnostics.add({overlay.origin.file, 1, 1},
-                    "'plumb: 1' is missing: it says which grammar this file follows.");
+}
+
+void check_also(const Node& overlay, Diagnostics& diagnostics) {
+  const Node* also = map_under(overlay, "also", diagnostics);
+  if (!also) return;
+  for (const Entry& entry : also->entries)
+    if (entry.value.is_map())
+      check_keys(entry.value, {"name", "about", "remove", "replace", "add", "set"}, "what stands under a pipeline of 'also'", diagnostics);
+    else
+      diagnostics.add(entry.value.origin, "'also' takes a map of edits for each pipeline, found " + entry.value.shown() + ".",
+                      "As in also: {../plumb.yaml: {set: {voxel_size: 0.3 m}}}.");
+}
+
+/// What an overlay and the edits under its 'also' have in common.
+void apply_edits(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
   for (const char* key : {"plumb", "name", "about"})
     if (const Entry* entry = overlay.find(key)) pipeline.put(key, entry->origin, entry->value);
 
@@ -213,6 +221,22 @@ void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics
   if (const Node* values = map_under(overlay, "set", diagnostics))
     for (const Entry& entry : values->entries)
       Finder(pipeline, entry.origin, diagnostics).set(entry.key, entry.value, false);
+}
+
+}  // namespace
+
+void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
+  check_keys(overlay, {"plumb", "name", "about", "extends", "also", "remove", "replace", "add", "set"}, "an overlay", diagnostics);
+  check_also(overlay, diagnostics);
+  const Entry* version = overlay.find("plumb");
+  if (!version)
+    diagnostics.add({overlay.origin.file, 1, 1},
+                    "'plumb: 1' is missing: it says which grammar this file follows.");
+  apply_edits(pipeline, overlay, diagnostics);
+}
+
+void apply_also(Node& pipeline, const Node& edits, Diagnostics& diagnostics) {
+  if (edits.is_map()) apply_edits(pipeline, edits, diagnostics);
 }
 
 void apply_set(Node& pipeline, const std::string& option, Diagnostics& diagnostics) {

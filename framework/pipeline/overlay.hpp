@@ -28,6 +28,9 @@ std::optional<Node> load_pipeline(const std::filesystem::path& file, const Overl
 /// Applies `remove`, `replace`, `add` and `set` of an overlay's tree, in this order.
 void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics);
 
+/// Applies the edits that stand for one pipeline under an overlay's 'also': a preset may serve more pipelines than the one it extends.
+void apply_also(Node& pipeline, const Node& edits, Diagnostics& diagnostics);
+
 /// Applies one "path=value" of the command line.
 void apply_set(Node& pipeline, const std::string& option, Diagnostics& diagnostics);
 

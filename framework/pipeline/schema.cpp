@@ -62,7 +62,7 @@ Json parameter() {
                              {"choice", ParameterKind::choice, Quantity::none}};
   for (const Quantity quantity :
        {Quantity::length, Quantity::angle, Quantity::time, Quantity::ratio, Quantity::speed,
-        Quantity::angular_speed, Quantity::frequency})
+        Quantity::angular_speed, Quantity::curvature, Quantity::frequency})
     kinds.push_back({name_of(quantity), ParameterKind::number, quantity});
   Json names = Json::array(), rules = Json::array();
   for (const Kind& kind : kinds) {
@@ -162,24 +162,26 @@ Json pipeline_definition() {
                 {"plumb", "steps"});
 }
 
+/// What an overlay changes, beside `more` keys of its own.
+Json edits(const Json& more, const Json& required) {
+  Json properties = {
+      {"name", {{"type", "string"}}},
+      {"about", {{"type", "string"}}},
+      {"remove", described({{"type", "array"}, {"items", {{"type", "string"}, {"pattern", path_pattern}}}}, "Steps to drop, by path.")},
+      {"replace", described(map_of(ref("item"), path_pattern), "Steps by path, as in GROUP.STEP.")},
+      {"add", described(map_of(ref("item"), path_pattern), "New steps by path.")},
+      {"set", described(map_of(scalar_or_row(), path_pattern),
+                        "Parameters, rows (GROUP.ROW) and parameters of steps (GROUP.STEP.PARAMETER).")}};
+  properties.update(more);
+  return object(properties, required);
+}
+
 Json overlay_definition() {
-  return object(
-      {{"plumb", {{"const", 1}}},
-       {"name", {{"type", "string"}}},
-       {"about", {{"type", "string"}}},
-       {"extends", described({{"type", "string"}},
-                             "The pipeline that this one changes, relative to this file.")},
-       {"remove",
-        described({{"type", "array"}, {"items", {{"type", "string"}, {"pattern", path_pattern}}}},
-                  "Steps to drop, by path.")},
-       {"replace",
-        described(map_of(ref("item"), path_pattern), "Steps by path, as in GROUP.STEP.")},
-       {"add", described(map_of(ref("item"), path_pattern), "New steps by path.")},
-       {"set",
-        described(
-            map_of(scalar_or_row(), path_pattern),
-            "Parameters, rows (GROUP.ROW) and parameters of steps (GROUP.STEP.PARAMETER).")}},
-      {"plumb", "extends"});
+  return edits({{"plumb", {{"const", 1}}},
+                {"extends", described({{"type", "string"}}, "The pipeline that this one changes, relative to this file.")},
+                {"also", described({{"type", "object"}, {"additionalProperties", ref("edits")}},
+                                   "Edits for further pipelines, by their paths relative to this file: as a preset it serves them too.")}},
+               {"plumb", "extends"});
 }
 
 }  // namespace
@@ -195,6 +197,7 @@ std::string pipeline_schema(const Registry& registry) {
   Json& definitions = schema["definitions"];
   definitions["pipeline"] = pipeline_definition();
   definitions["overlay"] = overlay_definition();
+  definitions["edits"] = edits(Json::object(), Json::array());
   definitions["parameter"] = parameter();
   definitions["steps"] = map_of(ref("item"), name_pattern);
   definitions["steps"]["minProperties"] = 1;

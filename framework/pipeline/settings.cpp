@@ -20,6 +20,7 @@ constexpr TypeName type_names[] = {
     {"ratio", ParameterKind::number, Quantity::ratio},
     {"speed", ParameterKind::number, Quantity::speed},
     {"angular_speed", ParameterKind::number, Quantity::angular_speed},
+    {"curvature", ParameterKind::number, Quantity::curvature},
     {"frequency", ParameterKind::number, Quantity::frequency},
     {"number", ParameterKind::number, Quantity::none},
     {"integer", ParameterKind::integer, Quantity::none},

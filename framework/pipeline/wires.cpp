@@ -28,7 +28,7 @@ std::vector<Grain> grains_for(StepKind kind, const InputDescription& input) {
     case StepKind::segment:
       return {Grain::segment, Grain::whole};
     case StepKind::edge:
-      return {Grain::edge};
+      return {input.type->grain == Grain::whole ? Grain::whole : Grain::edge};
     case StepKind::fold:
       return {input.type->grain == Grain::frame ? Grain::frame : Grain::whole};
     case StepKind::whole:

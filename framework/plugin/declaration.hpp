@@ -21,7 +21,7 @@ namespace plumb {
 class ParameterBuilder {
  public:
   explicit ParameterBuilder(ParameterDescription& description) : of_(&description) {}
-  /// Unit of the C++ field: "m", "rad", "s", "m/s", "rad/s", "Hz", or "%" for a ratio (the field holds 0.02 for 2 %).
+  /// Unit of the C++ field: "m", "rad", "s", "m/s", "rad/s", "rad/m", "Hz", or "%" for a ratio (the field holds 0.02 for 2 %).
   ParameterBuilder& unit(const char* symbol) {
     const Unit* unit = find_unit(symbol);
     if (!unit) throw std::logic_error("parameter '" + of_->name + "': no such unit");
@@ -193,6 +193,13 @@ class Declaration {
     return *this;
   }
 
+  /// An optional input of Metrics whose first number multiplies all of the step's lengths (parameters in metres; those in 1/m are divided): how large the surroundings are
+  /// beside those that the numbers were chosen for. So one pipeline serves a car in a street and a scanner carried through rooms.
+  Declaration& scale(One<Metrics> In::*member) {
+    scale_ = [member](const In& in) { return (in.*member).shared().get(); };
+    return add_input("scale", member, "how large the surroundings are beside those that the parameters are for; lengths are multiplied by it (estimate.scale)", true);
+  }
+
   /// A parameter of type double, int, std::uint32_t, std::int64_t, bool, std::string, std::filesystem::path, or std::optional of
   /// one of these (then 'none' may be written). The default is what the member has in a fresh Params.
   template <class M>
@@ -206,6 +213,10 @@ class Declaration {
         if (std::holds_alternative<std::monostate>(v)) params.*member = std::nullopt;
         else params.*member = from_value<typename M::value_type>(v);
       }});
+      if constexpr (std::is_same_v<typename M::value_type, double>)
+        scalers_.push_back({of_.parameters.size() - 1, [member](Params& params, double factor) {
+          if (params.*member) *(params.*member) *= factor;
+        }});
       return ParameterBuilder(p);
     } else {
       auto& p = add_param<M>(parameter);
@@ -213,6 +224,8 @@ class Declaration {
       setters_.push_back({parameter, [member](Params& params, const ParameterValue& v) {
         params.*member = from_value<M>(v);
       }});
+      if constexpr (std::is_same_v<M, double>)
+        scalers_.push_back({of_.parameters.size() - 1, [member](Params& params, double factor) { params.*member *= factor; }});
       return ParameterBuilder(p);
     }
   }
@@ -240,6 +253,21 @@ class Declaration {
   }
   void give_out(Out& out, std::span<PortOutput> outputs) const {
     for (std::size_t k = 0; k < getters_.size(); ++k) getters_[k](out, outputs[k]);
+  }
+  /// The factor of lengths that came in, or 1. Throws Error where it is no factor.
+  double scale_of(const In& in) const {
+    const Metrics* scale = scale_ ? scale_(in) : nullptr;
+    if (!scale) return 1;
+    const auto& numbers = scale->numbers;
+    if (numbers.empty() || !(numbers.front().value > 0 && numbers.front().value < std::numeric_limits<double>::infinity()))
+      throw Error("'scale' must have a positive number: wire the output of estimate.scale");
+    return numbers.front().value;
+  }
+  Params scaled(Params params, double factor) const {
+    for (const auto& [place, scale] : scalers_)
+      if (of_.parameters[place].quantity == Quantity::length) scale(params, factor);
+      else if (of_.parameters[place].quantity == Quantity::curvature) scale(params, 1 / factor);
+    return params;
   }
   Params make_params(const ParameterValues& values) const {
     Params params;
@@ -296,6 +324,8 @@ class Declaration {
   std::vector<std::function<void(In&, const PortInput&)>> takers_;
   std::vector<std::function<void(Out&, PortOutput&)>> getters_;
   std::vector<std::pair<std::string, std::function<void(Params&, const ParameterValue&)>>> setters_;
+  std::vector<std::pair<std::size_t, std::function<void(Params&, double)>>> scalers_;  ///< of the parameter with that place
+  std::function<const Metrics*(const In&)> scale_;  ///< null where it is not wired
 };
 
 /// The engine's face of a step S.
@@ -312,7 +342,9 @@ class StepOf final : public Step {
     if constexpr (S::kind == StepKind::fold) {
       throw std::logic_error("a fold is not run but folded");
     } else {
-      auto out = S{}.run(declaration_.make_in(inputs), params_of(params), context);
+      const auto in = declaration_.make_in(inputs);
+      const double factor = declaration_.scale_of(in);
+      auto out = factor == 1 ? S{}.run(in, params_of(params), context) : S{}.run(in, declaration_.scaled(params_of(params), factor), context);
       declaration_.give_out(out, outputs);
     }
   }

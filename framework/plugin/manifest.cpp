@@ -20,7 +20,7 @@ constexpr ParameterKind parameter_kinds[] = {ParameterKind::number, ParameterKin
                                              ParameterKind::boolean, ParameterKind::text,
                                              ParameterKind::path, ParameterKind::choice};
 constexpr Quantity quantities[] = {Quantity::none, Quantity::length, Quantity::angle, Quantity::time,
-                                   Quantity::ratio, Quantity::speed, Quantity::angular_speed,
+                                   Quantity::ratio, Quantity::speed, Quantity::angular_speed, Quantity::curvature,
                                    Quantity::frequency};
 
 template <class E, std::size_t N>

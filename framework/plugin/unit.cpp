@@ -14,6 +14,7 @@ const char* name_of(Quantity quantity) {
     case Quantity::ratio: return "ratio";
     case Quantity::speed: return "speed";
     case Quantity::angular_speed: return "angular_speed";
+    case Quantity::curvature: return "curvature";
     case Quantity::frequency: return "frequency";
   }
   return "?";
@@ -28,6 +29,7 @@ const char* si_symbol(Quantity quantity) {
     case Quantity::ratio: return "";
     case Quantity::speed: return "m/s";
     case Quantity::angular_speed: return "rad/s";
+    case Quantity::curvature: return "rad/m";
     case Quantity::frequency: return "Hz";
   }
   return "";
@@ -43,6 +45,7 @@ const std::vector<Unit>& units() {
       {Quantity::time, "min", 60},          {Quantity::ratio, "%", 0.01},
       {Quantity::speed, "m/s", 1},          {Quantity::speed, "km/h", 1 / 3.6},
       {Quantity::angular_speed, "deg/s", degree}, {Quantity::angular_speed, "rad/s", 1},
+      {Quantity::curvature, "deg/m", degree},     {Quantity::curvature, "rad/m", 1},
       {Quantity::frequency, "Hz", 1},
   };
   return all;

@@ -8,7 +8,7 @@
 namespace plumb {
 
 /// What a number measures. `none` takes a bare number; every other wants its unit.
-enum class Quantity { none, length, angle, time, ratio, speed, angular_speed, frequency };
+enum class Quantity { none, length, angle, time, ratio, speed, angular_speed, curvature, frequency };
 
 /// One way to write a quantity: `value_si = factor * value`.
 struct Unit {

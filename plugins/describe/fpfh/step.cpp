@@ -11,6 +11,7 @@ namespace {
 struct DescribeFpfh : SegmentStep {
   struct In {
     One<Segment> segment;
+    One<Metrics> scale;
   };
   struct Out {
     Features features;
@@ -28,6 +29,7 @@ struct DescribeFpfh : SegmentStep {
     is.summary("Describes key points by fast point feature histograms, 33 numbers each.");
     is.source("[Rusu2009] II; [Tang2024] 2.3.2");
     is.input("segment", &In::segment, "a cloud with normals");
+    is.scale(&In::scale);
     is.output("features", &Out::features, "key points with their histograms and border marks");
     is.param("key_point_leaf", &Params::key_point_leaf)
         .unit("m")

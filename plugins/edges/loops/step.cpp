@@ -11,6 +11,7 @@ struct LoopEdges : WholeStep {
     Each<Descriptor> descriptors;
     Each<Segment> segments;
     One<Poses> poses;
+    One<Metrics> scale;
   };
   struct Out {
     Edges edges;
@@ -27,6 +28,7 @@ struct LoopEdges : WholeStep {
     is.input("descriptors", &In::descriptors, "one vector a segment, to tell what looks alike");
     is.input("segments", &In::segments, "the clouds, for their centroids");
     is.input("poses", &In::poses, "where the segments are at present");
+    is.scale(&In::scale);
     is.output("edges", &Out::edges, "loop edges; the score is the similarity");
     is.choice("similarity", &Params::similarity,
               {{"inverse_difference", Similarity::inverse_difference,

@@ -8,6 +8,7 @@ struct OverlapEdges : WholeStep {
   struct In {
     Each<Segment> segments;
     One<Poses> poses;
+    One<Metrics> scale;
   };
   struct Out {
     Edges edges;
@@ -20,6 +21,7 @@ struct OverlapEdges : WholeStep {
     is.source("[Tang2024] 2.3.1");
     is.input("segments", &In::segments, "the clouds");
     is.input("poses", &In::poses, "where the segments are at present");
+    is.scale(&In::scale);
     is.output("edges", &Out::edges, "sequential edges, and neighbours; the score is the overlap");
     is.param("voxel", &Params::voxel)
         .unit("m")

@@ -9,7 +9,6 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t block_points = 1024;  // fixed, so that blocks do not follow the threads
-constexpr double line_ratio = 1e-6;  // middle to largest eigenvalue: 1 mm of width on 1 m of length
 
 /// Finds the neighbours of one point after another, in memory of its own.
 class Finder {
@@ -48,7 +47,7 @@ class Finder {
 
 }  // namespace
 
-Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count) {
+Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count, double min_width, double max_thickness) {
   if (count < 3) return Eigen::Vector3f::Zero();
   double x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (std::size_t m = 0; m < count; ++m) {
@@ -64,8 +63,9 @@ Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count) {
       xz - x * z / n, yz - y * z / n, zz - z * z / n;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
-  if (!(eigen.eigenvalues()[1] > line_ratio * eigen.eigenvalues()[2]))
-    return Eigen::Vector3f::Zero();
+  const auto& variances = eigen.eigenvalues();
+  if (!(variances[1] > min_width * min_width * variances[2])) return Eigen::Vector3f::Zero();
+  if (max_thickness < 1 && !(variances[0] <= max_thickness * max_thickness * variances[1])) return Eigen::Vector3f::Zero();
   return eigen.eigenvectors().col(0).normalized().cast<float>();
 }
 
@@ -82,7 +82,7 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
     for (std::size_t k = block * block_points; k < end; ++k) {
       const auto& points = finder.around(k);
       Eigen::Vector3f normal = of.planar ? line_normal(points.data(), points.size())
-                                         : plane_normal(points.data(), points.size());
+                                         : plane_normal(points.data(), points.size(), of.min_width, of.max_thickness);
       if (normal.isZero()) {
         ++without[block];
         continue;

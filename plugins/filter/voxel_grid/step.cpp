@@ -7,6 +7,7 @@ namespace {
 struct VoxelGrid : SegmentStep {
   struct In {
     One<Segment> segment;
+    One<Metrics> scale;
   };
   struct Out {
     Segment segment;
@@ -19,6 +20,7 @@ struct VoxelGrid : SegmentStep {
     is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2");
     is.summary("Keeps one point per cubic cell: the mean of the points in it.");
     is.input("segment", &In::segment, "the cloud to thin");
+    is.scale(&In::scale);
     is.output("segment", &Out::segment,
               "its cells' means, with intensity and normals where it has them");
     is.param("leaf", &Params::leaf).unit("m").range(0.001, 1000).doc("edge length of a cell");

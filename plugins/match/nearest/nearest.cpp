@@ -30,33 +30,39 @@ std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, 
   return inside;
 }
 
+/// Asks `of`'s points for the nearest of `near`, `reach` [m]; adds the pairs to matches with p in i and q in j, whichever of the two asks.
+void ask(const Segment& of, const Segment& near, const Motion& near_from_of, const std::optional<std::uint32_t>& most, bool of_is_i,
+         const NearestOptions& options, Matches& matches) {
+  const auto max = static_cast<float>(options.max);
+  const float least_cosine = options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
+  for (const auto k : near_box(of.cloud, near_from_of, near.box, max, most)) {
+    const Eigen::Vector3f p = of.cloud.point(k);
+    SearchTree::Neighbour nearest;
+    if (!near.tree().nearest_within(near_from_of * p, max, nearest)) continue;
+    ++matches.found;
+    const Eigen::Vector3f q = near.cloud.point(nearest.index);
+    const Eigen::Vector3f normal = options.to_plane || options.reject_normals ? near.cloud.normal(nearest.index) : Eigen::Vector3f::Zero();
+    if (options.to_plane && normal.isZero()) continue;
+    if (options.reject_normals && (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine) continue;
+    matches.p.push_back(of_is_i ? p : q);
+    matches.q.push_back(of_is_i ? q : p);
+    matches.index_p.push_back(of_is_i ? k : nearest.index);
+    matches.index_q.push_back(of_is_i ? nearest.index : k);
+    if (options.to_plane) matches.normal_q.push_back(of_is_i ? normal : Eigen::Vector3f(near_from_of.r.transpose() * normal));
+  }
+}
+
 }  // namespace
 
 Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options) {
   Matches matches;
   matches.to_plane = options.to_plane;
-  const auto max = static_cast<float>(options.max);
-  if (!j.box.meets(moved(i.box, T_i_j.inverse()), max)) return matches;
-  const Motion j_from_i(T_i_j.inverse());
-  const auto asked = near_box(i.cloud, j_from_i, j.box, max, options.most_points);
-  const float least_cosine =
-      options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
-  for (const auto k : asked) {
-    const Eigen::Vector3f p = i.cloud.point(k);
-    SearchTree::Neighbour nearest;
-    if (!j.tree().nearest_within(j_from_i * p, max, nearest)) continue;
-    ++matches.found;
-    if (options.to_plane && j.cloud.normal(nearest.index).isZero()) continue;
-    if (options.reject_normals &&
-        (j_from_i.r * i.cloud.normal(k)).dot(j.cloud.normal(nearest.index)) < least_cosine)
-      continue;
-    matches.p.push_back(p);
-    matches.q.push_back(j.cloud.point(nearest.index));
-    matches.index_p.push_back(k);
-    matches.index_q.push_back(nearest.index);
-    if (options.to_plane) matches.normal_q.push_back(j.cloud.normal(nearest.index));
-  }
+  if (!j.box.meets(moved(i.box, T_i_j.inverse()), static_cast<float>(options.max))) return matches;
+  auto each_way = options.most_points;
+  if (each_way && options.both_ways) each_way = (*each_way + 1) / 2;
+  ask(i, j, Motion(T_i_j.inverse()), each_way, true, options, matches);
+  if (options.both_ways) ask(j, i, Motion(T_i_j), each_way, false, options, matches);
   matches.weight.assign(matches.size(), 1.0f);
   return matches;
 }

@@ -13,6 +13,7 @@ struct Nearest : EdgeStep {
     OverEdges edges;
     Ends<Segment> segments;
     Relative poses;
+    One<Metrics> scale;
   };
   struct Out {
     Matches matches;
@@ -22,6 +23,7 @@ struct Nearest : EdgeStep {
     Metric metric = Metric::point;
     std::optional<std::uint32_t> most_points;
     std::optional<double> reject_normals;
+    bool both_ways = false;
   };
 
   static void describe(Declaration<Nearest>& is) {
@@ -32,6 +34,7 @@ struct Nearest : EdgeStep {
     is.input("segments", &In::segments,
              "the clouds; with normals for 'metric: plane' and 'reject_normals'");
     is.input("poses", &In::poses, "where the segments are at present");
+    is.scale(&In::scale);
     is.output("matches", &Out::matches, "pairs no farther apart than 'max'");
     is.param("max", &Params::max)
         .unit("m")
@@ -48,6 +51,8 @@ struct Nearest : EdgeStep {
         .unit("rad")
         .range(0, std::numbers::pi)
         .doc("pairs whose normals differ by more are dropped; none: normals are not looked at");
+    is.param("both_ways", &Params::both_ways)
+        .doc("the second segment's points ask too, for the nearest of the first: what is one-sided about nearest points cancels");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -61,11 +66,12 @@ struct Nearest : EdgeStep {
                     what + "' out");
     };
     if (params.metric == Metric::plane) demand_normals(j, "metric: plane");
+    if (params.metric == Metric::plane && params.both_ways) demand_normals(i, "both_ways");
     if (params.reject_normals)
       demand_normals(i, "reject_normals"), demand_normals(j, "reject_normals");
     Matches matches = nearest_pairs(
         i, j, in.poses.T_i_j,
-        {params.max, params.metric == Metric::plane, params.most_points, params.reject_normals});
+        {params.max, params.metric == Metric::plane, params.most_points, params.reject_normals, params.both_ways});
     context.count("pairs dropped for their normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};

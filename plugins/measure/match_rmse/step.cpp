@@ -14,6 +14,7 @@ struct MatchRmse : WholeStep {
     Each<Segment> segments;
     Several<Poses> poses;
     One<Poses> pairs;
+    One<Metrics> scale;
   };
   struct Out {
     Metrics metrics;
@@ -32,6 +33,7 @@ struct MatchRmse : WholeStep {
     is.input("segments", &In::segments, "their clouds, thinned as you want them compared");
     is.input("poses", &In::poses, "where the segments are; a number for each, by its label");
     is.optional_input("pairs", &In::pairs, "poses under which the pairs are found, once for all; without, each has its own pairs");
+    is.scale(&In::scale);
     is.output("metrics", &Out::metrics, "a number for each of 'poses', and under the last of them a record for each edge");
     is.param("cap", &Params::cap).unit("m").range(1e-3, 100).doc("farther points are no pair");
     is.param("most_points", &Params::most_points).range(1, 1e9)

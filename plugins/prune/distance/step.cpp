@@ -9,6 +9,7 @@ struct DistanceGate : EdgeStep {
     One<Matches> matches;
     Relative poses;
     ThisEdge edges;
+    One<Metrics> scale;
   };
   struct Out {
     Matches matches;
@@ -25,6 +26,7 @@ struct DistanceGate : EdgeStep {
     is.input("matches", &In::matches, "the pairs to look at");
     is.input("poses", &In::poses, "where the segments are at present");
     is.optional_input("edges", &In::edges, "kinds and centroid distances; for 'loop_margin'");
+    is.scale(&In::scale);
     is.output("matches", &Out::matches, "the pairs within the gate");
     is.param("max", &Params::max)
         .unit("m")

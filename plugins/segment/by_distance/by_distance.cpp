@@ -1,6 +1,12 @@
 #include "by_distance.hpp"
 
+#include <algorithm>
+
 namespace plumb {
+
+double grown_length(double path, double length, std::optional<double> max_length, std::size_t max_segments) {
+  return std::clamp(path / static_cast<double>(max_segments), length, std::max(length, max_length.value_or(length)));
+}
 
 std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled, double length,
                                             std::optional<std::size_t> most_frames,

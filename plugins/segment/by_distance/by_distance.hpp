@@ -8,6 +8,9 @@
 
 namespace plumb {
 
+/// The length of segments [m] that makes at most `max_segments` of a path [m]: not less than `length`, nor more than `max_length` (none: `length`).
+double grown_length(double path, double length, std::optional<double> max_length, std::size_t max_segments);
+
 /// First frames of segments that are at most `length` [m] long: a frame begins a new one when it is
 /// farther than that along the path from its segment's first frame, or would be its frame number
 /// `most_frames` (from 0). `travelled` is the path [m] from the first frame to each. A last segment

@@ -12,6 +12,7 @@ namespace {
 struct ByDistance : WholeStep {
   struct In {
     One<Trajectory> trajectory;
+    One<Metrics> scale;
   };
   struct Out {
     std::vector<Range> ranges;
@@ -21,12 +22,18 @@ struct ByDistance : WholeStep {
     double length = 15;
     std::optional<std::uint32_t> most_frames;
     std::optional<double> turn;
+    std::optional<double> max_length;
+    std::uint32_t max_segments = 1000;
+    std::string check() const {
+      return max_length && *max_length < length ? "max_length must not be smaller than length, from which it grows" : "";
+    }
   };
 
   static void describe(Declaration<ByDistance>& is) {
     is.name("segment.by_distance").version(2).source("[Tang2024] 2.2, by path instead of by count");
     is.summary("Cuts the trajectory into segments of an equal length of path.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
+    is.scale(&In::scale);
     is.output("ranges", &Out::ranges, "the frames of each segment");
     is.output("poses", &Out::poses, "where each segment is: the pose of its middle frame");
     is.param("length", &Params::length)
@@ -40,6 +47,11 @@ struct ByDistance : WholeStep {
         .unit("rad")
         .range(1e-4, std::numbers::pi)
         .doc("a frame that is turned by more against its segment's first begins a new one; none: however far");
+    is.param("max_length", &Params::max_length)
+        .unit("m")
+        .range(0.01, 1e6)
+        .doc("'length' grows up to this where the path would give more than 'max_segments'; none: it does not grow");
+    is.param("max_segments", &Params::max_segments).range(1, 1e9).doc("see 'max_length'");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
@@ -50,8 +62,9 @@ struct ByDistance : WholeStep {
       turned = [&](std::size_t first, std::size_t k) {
         return angle(poses[first].inverse() * poses[k]) > *params.turn;
       };
-    out.ranges = ranges_from(*in.trajectory,
-                             starts_by_distance(travelled(*in.trajectory), params.length, params.most_frames, turned));
+    const auto path = travelled(*in.trajectory);
+    const double length = grown_length(path.empty() ? 0 : path.back(), params.length, params.max_length, params.max_segments);
+    out.ranges = ranges_from(*in.trajectory, starts_by_distance(path, length, params.most_frames, turned));
     out.poses = poses_of(out.ranges);
     return out;
   }

@@ -8,6 +8,7 @@ struct Merge : SegmentStep {
   struct In {
     Each<Frame> frames;
     One<Range> ranges;
+    One<Metrics> scale;
   };
   struct Out {
     Segment segment;
@@ -21,6 +22,7 @@ struct Merge : SegmentStep {
     is.summary("Merges the frames of a segment by their poses into one rigid cloud.");
     is.input("frames", &In::frames, "the segment's own frames, in order");
     is.input("ranges", &In::ranges, "which frames they are, and where they stand in the segment");
+    is.scale(&In::scale);
     is.output("segment", &Out::segment, "all their points in the segment's coordinates, or the means of those in each cell");
     is.param("leaf", &Params::leaf).unit("m").range(0, 1000)
         .doc("edge length of cells to thin by while merging, as filter.voxel_grid does afterwards; 0 keeps all points");

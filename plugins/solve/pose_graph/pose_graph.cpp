@@ -8,7 +8,10 @@
 #include <memory>
 #include <numeric>
 
+#include <Eigen/Cholesky>
+
 #include "edge_state.hpp"
+#include "marginals.hpp"
 #include "parts.hpp"
 #include "plumb/data/error.hpp"
 #include "pose_manifold.hpp"
@@ -282,6 +285,10 @@ class Graph {
     for (const auto& edge : edges_) verdict.add(*edge);
     for (std::size_t k = 0; k < relations_; ++k) {
       const auto& r = terms_[k]->relation;
+      if (!edges_.empty() && !terms_[k]->robust) {  // beside matches a chain is what the odometry knows, no edge of its own
+        verdict.joined_by_prior();
+        continue;
+      }
       const Pose error = r.T_i_j.inverse() * (pose(r.i).inverse() * pose(r.j));
       verdict.add(r, !terms_[k]->robust, error.translation.norm(), terms_[k]->root_weight * terms_[k]->root_weight);
     }
@@ -289,8 +296,87 @@ class Graph {
     if (edges_.empty() && relations_ > 0) verdict.left_out(unnamed());
     result.metrics = verdict.metrics(before, cost(), rounds_used_, iterations_used_);
     result.warnings = verdict.warnings(parts_.list());
+    if (options_.uncertainty && !planar_) add_uncertainty(result);
     return result;
   }
+
+  // ---- uncertainty ----------------------------------------------------------------------------------------------------------
+
+  /// The mean cost, by degree of freedom, that edges and relations have above the best that each could have alone: 1 where
+  /// they disagree as much as their weights say.
+  double variance_factor() const {
+    std::vector<double> above(edges_.size(), 0);
+    parallel_(edges_.size(), [&](std::size_t k) {
+      const EdgeState& edge = *edges_[k];
+      if (edge.pairs() < 6 || edge.edge().i == edge.edge().j) return;
+      const auto cost_at = [&](const Pose& T) { return edge.form().residual(T.matrix(), T.translation).squaredNorm(); };
+      above[k] = std::max(0.0, cost_at(T_j_i(edge.edge())) - cost_at(fitted(edge.form(), 5)));
+    });
+    double sum = 0, terms = 0;
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      if (edges_[k]->pairs() >= 6) sum += above[k], terms += 6 * std::clamp(edges_[k]->mean_weight(), 0.0, 1.0);
+    for (const auto& term : terms_) {
+      if (!term->robust && edges_.empty()) terms += 6, sum += squared(*term);
+      if (term->robust && term->root_weight > 0.7) terms += 6, sum += squared(*term);
+    }
+    const double freedom = terms - 6 * static_cast<double>(blocks_.size());
+    return freedom > 0 && sum > 0 ? sum / freedom : 1;
+  }
+
+  void add_uncertainty(GraphResult& result) const {
+    const std::uint32_t first = static_cast<std::uint32_t>(std::ranges::find_if(blocks_, [&](const PoseBlock& b) { return problem_->IsParameterBlockConstant(b.data()); }) - blocks_.begin());
+    std::vector<int> place(blocks_.size(), -1);
+    int free = 0;
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      if (!problem_->IsParameterBlockConstant(blocks_[k].data())) place[k] = free++;
+    if (free == 0) return;
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<ceres::ResidualBlockId> ids;
+    problem_->GetResidualBlocks(&ids);
+    for (const auto id : ids) add_normal_equations(id, place, entries);
+    Eigen::SparseMatrix<double> lower(6 * free, 6 * free);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    const auto covariances = diagonal_blocks_of_inverse(lower);
+    const double factor = variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
+    for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
+      if (place[k] < 0) continue;
+      // From moves (v in the world, w in the pose's axes) to what a relation of g2o counts: [t; q.vec] in the pose's axes.
+      Matrix6d change = Matrix6d::Zero();
+      change.topLeftCorner<3, 3>() = pose(k).matrix().transpose();
+      change.bottomRightCorner<3, 3>() = 0.5 * Eigen::Matrix3d::Identity();
+      Matrix6d covariance = factor * change * covariances[static_cast<std::size_t>(place[k])] * change.transpose();
+      const double away = first < blocks_.size() ? (pose(k).translation - pose(first).translation).norm() : 0;
+      covariance.diagonal().head<3>().array() += std::pow(options_.uncertainty_per_metre * away, 2);
+      result.uncertainty.absolute.push_back({k, pose(k), covariance.ldlt().solve(Matrix6d::Identity())});
+    }
+    result.metrics.add("variance_factor", variance_factor(), "");
+  }
+
+  /// J'J of one term, with the derivatives by (v, w) that stand in the first six columns of each block.
+  void add_normal_equations(ceres::ResidualBlockId id, const std::vector<int>& place, std::vector<Eigen::Triplet<double>>& entries) const {
+    const ceres::CostFunction* cost = problem_->GetCostFunctionForResidualBlock(id);
+    std::vector<double*> poses;
+    problem_->GetParameterBlocksForResidualBlock(id, &poses);
+    const int rows = cost->num_residuals();
+    using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+    std::vector<Jacobian> jacobians(poses.size(), Jacobian(rows, 7));
+    std::vector<double*> to;
+    for (auto& jacobian : jacobians) to.push_back(jacobian.data());
+    Eigen::VectorXd residual(rows);
+    cost->Evaluate(poses.data(), residual.data(), to.data());
+    const auto vertex = [&](std::size_t n) { return place[static_cast<std::size_t>(reinterpret_cast<const PoseBlock*>(poses[n]) - blocks_.data())]; };
+    for (std::size_t a = 0; a < poses.size(); ++a)
+      for (std::size_t b = 0; b < poses.size(); ++b) {
+        const int row = vertex(a), column = vertex(b);
+        if (row < 0 || column < 0 || row < column) continue;
+        const Matrix6d block = jacobians[a].leftCols<6>().transpose() * jacobians[b].leftCols<6>();
+        for (int i = 0; i < 6; ++i)
+          for (int j = 0; j < 6; ++j)
+            if (row > column || i >= j) entries.emplace_back(6 * row + i, 6 * column + j, block(i, j));
+      }
+  }
+
+  // ---- data -----------------------------------------------------------------------------------------------------------------
 
   const Poses& start_;
   const GraphOptions& options_;

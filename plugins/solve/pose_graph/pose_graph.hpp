@@ -26,6 +26,9 @@ struct GraphOptions {
   double relation_scale = 3;          ///< standard deviations at which the loss lets go of a relation that is not sequential
   int rounds = 30;                    ///< at most: weights refreshed, solved again
   int iterations = 100;               ///< of Levenberg-Marquardt in each round, at most
+  bool uncertainty = false;           ///< whether the poses' covariances are computed
+  double uncertainty_per_metre = 5e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the first: clouds share a bias
+  double uncertainty_factor = 2;      ///< their deviations are multiplied by it: edges that share a segment share its errors
   double tolerance = 1e-4;            ///< [m] rounds end when no pose moves more, a rotation counting at 10 m
 
   /// Empty, or what does not go together.
@@ -42,6 +45,7 @@ struct GraphResult {
   Poses poses;
   Metrics metrics;
   std::vector<std::string> warnings;  ///< sentences: what fell apart
+  Relations uncertainty;              ///< if asked for: each pose but the fixed ones as an absolute pose with its marginal information
 };
 
 /// Calls body(0 .. n-1), in any order, on any threads.
@@ -56,6 +60,9 @@ using ParallelLoop = std::function<void(std::size_t n, const std::function<void(
 ///
 /// The first pose of each connected part stays as it is, unless an absolute constraint holds the part. A part that no edge joins
 /// to the rest keeps its place relative to the pose before its first one, and is warned of.
+/// `uncertainty`: H^-1 of the last round's normal equations, marginal for each pose relative to the fixed first one, times a variance factor: the cost that the
+/// edges have above their own best motions, by the degrees of freedom that the edges have more than the poses. It is what the edges' disagreement with each
+/// other tells of their errors. Only in space.
 /// The result does not depend on how `parallel` runs. Throws Error: an edge or relation names a pose that does not exist, pairs
 /// with planes but without normals, an information matrix with a negative eigenvalue.
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,

@@ -15,10 +15,12 @@ struct SolvePoseGraph : WholeStep {
     One<Poses> poses;
     Each<Matches> matches;
     Several<Relations> relations;
+    One<Metrics> scale;
   };
   struct Out {
     Poses poses;
     Metrics metrics;
+    Relations uncertainty;
   };
   using Params = GraphOptions;
 
@@ -30,8 +32,10 @@ struct SolvePoseGraph : WholeStep {
     is.input("poses", &In::poses, "where the segments are; the solver starts here");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
     is.optional_input("relations", &In::relations, "measured relative and absolute poses and points; several are joined");
+    is.scale(&In::scale);
     is.output("poses", &Out::poses, "where the segments are after solving");
     is.output("metrics", &Out::metrics, "cost, residual, and what became of each edge");
+    is.output("uncertainty", &Out::uncertainty, "with 'uncertainty: true', how well each pose is known beside the first: absolute poses with their information");
     is.choice("loss", &Params::loss, losses).doc("how a pair's squared residual counts").source("[Tang2024] 2.1");
     is.param("scale", &Params::scale).unit("m").range(1e-4, 1000)
         .doc("residual of a pair at which the loss begins to let go; also a pair's standard deviation beside relations and odometry");
@@ -59,6 +63,11 @@ struct SolvePoseGraph : WholeStep {
         .doc("the most times that weights are refreshed; with anneal_from two thirds of them shrink the scale");
     is.param("iterations", &Params::iterations).range(1, 10000)
         .doc("the most iterations of Levenberg-Marquardt in one round");
+    is.param("uncertainty", &Params::uncertainty).doc("compute how well each pose is known; only in space");
+    is.param("uncertainty_per_metre", &Params::uncertainty_per_metre).unit("%").range(0, 1)
+        .doc("standard deviation of a position, of its distance from the first, on top: a bias that all registrations share shows in no disagreement");
+    is.param("uncertainty_factor", &Params::uncertainty_factor).range(0.01, 1000)
+        .doc("standard deviations are multiplied by it, since edges that share a segment share its errors");
     is.param("tolerance", &Params::tolerance).unit("m").range(0, 1)
         .doc("rounds end when no pose moves more than this, a rotation counting at 10 m");
   }
@@ -79,7 +88,7 @@ struct SolvePoseGraph : WholeStep {
         *in.poses, edges, in.relations.empty() ? nullptr : &relations, params,
         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     for (const auto& warning : result.warnings) context.warn(warning);
-    return {std::move(result.poses), std::move(result.metrics)};
+    return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
   }
 
  private:

@@ -26,12 +26,12 @@ Solved run(const TestGraph& g, const ParameterValues& values, TestContext& conte
   auto held = std::make_shared<Held>();
   held->graph = {static_cast<std::uint32_t>(g.truth.size()), g.edges};
   for (const auto& m : g.matches) held->items.push_back(any_value(m));
-  PortInput inputs[3];
+  PortInput inputs[4];
   inputs[0].wired = true;
   inputs[0].one = any_value(g.drifted);
   inputs[1].wired = wire_matches;
   inputs[1].each = held;
-  PortOutput outputs[2];
+  PortOutput outputs[3];
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters(values).get(), inputs, outputs, context);
   return {*outputs[0].one.as<Poses>(), *outputs[1].one.as<Metrics>()};
@@ -69,14 +69,14 @@ Relations planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pair
 }
 
 Poses solve(const std::vector<Relations>& relations, const ParameterValues& values, TestContext& context, Metrics* metrics = nullptr) {
-  PortInput inputs[3];
+  PortInput inputs[4];
   Poses start;
   for (int k = 0; k < 5; ++k) start.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1.1 * k, 0, 0));
   inputs[0].wired = inputs[2].wired = true;
   inputs[0].one = any_value(start);
   for (std::size_t k = 0; k < relations.size(); ++k)
     inputs[2].several.emplace_back(std::string(1, static_cast<char>('a' + k)), any_value(relations[k]));
-  PortOutput outputs[2];
+  PortOutput outputs[3];
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters(values).get(), inputs, outputs, context);
   if (metrics) *metrics = *outputs[1].one.as<Metrics>();

@@ -12,6 +12,7 @@ struct WriteMap : WholeStep {
   struct In {
     Each<Frame> frames;
     One<Trajectory> trajectory;
+    One<Metrics> scale;
   };
   struct Out {
     Document document;
@@ -31,6 +32,7 @@ struct WriteMap : WholeStep {
     is.name("write.map").version(2).summary("Writes the map: all frames by their poses, one point a cell.");
     is.input("frames", &In::frames, "the frames, opened one after another");
     is.input("trajectory", &In::trajectory, "their poses");
+    is.scale(&In::scale);
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
     is.param("leaf", &Params::leaf).unit("m").range(0.005, 100)

@@ -1,0 +1,173 @@
+#include "divergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+
+namespace plumb {
+namespace {
+
+struct Pair {
+  std::uint32_t a, b;
+  Pose odometry;               ///< T_a_b
+  std::optional<Pose> better;  ///< what the scans say instead
+  std::vector<Pose> followed;  ///< where it was followed frame by frame: T_a_k of the frames a + 1 .. b
+};
+
+Pose scaled(const Pose& motion, double factor) {
+  return {exp_rotation(factor * log_rotation(motion.rotation)), factor * motion.translation};
+}
+
+class Checker {
+ public:
+  Checker(const Trajectory& odometry, const std::function<std::shared_ptr<const Frame>(std::size_t)>& open, const DivergenceOptions& options)
+      : odometry_(odometry), open_(open), options_(options) {
+    const auto path = travelled(odometry);
+    for (std::uint32_t a = 0, b = 1; b < odometry.size(); ++b)
+      if (path[b] - path[a] >= options.length || b - a >= options.max_frames || b + 1 == odometry.size()) {
+        pairs_.push_back({a, b, odometry.T_world_frame[a].inverse() * odometry.T_world_frame[b], {}, {}});
+        a = b;
+      }
+  }
+
+  CheckedOdometry run(Context& context) {
+    context.parallel(pairs_.size(), [&](std::size_t n) { pairs_[n].better = judge(n, n > 0 ? &pairs_[n - 1].odometry : nullptr); });
+    // Where a motion was found wrong, the scans are followed frame by frame until the odometry agrees with them again.
+    for (std::size_t n = 1; n < pairs_.size(); ++n)
+      if (pairs_[n - 1].better) follow(n);
+    drop_single();
+    CheckedOdometry result;
+    result.compared = static_cast<std::uint32_t>(pairs_.size());
+    result.divergences = divergences();
+    result.trajectory = corrected();
+    return result;
+  }
+
+ private:
+  /// The motion that the scans prefer to the odometry's by far, if any. `before` is the motion of the pair before.
+  std::optional<Pose> judge(std::size_t n, const Pose* before) const {
+    const Pair& pair = pairs_[n];
+    ScanTarget target(open_(pair.a)->cloud, options_.scans);
+    const auto source = asked_points(open_(pair.b)->cloud, options_.scans);
+    std::vector<Pose> rivals{scaled(pair.odometry, 0.5), scaled(pair.odometry, 2), Pose()};
+    if (before) {
+      const double frames = static_cast<double>(pair.b - pair.a) / static_cast<double>(pairs_[n - 1].b - pairs_[n - 1].a);
+      rivals.push_back(scaled(*before, frames));
+    }
+    const double given = target.misfit(source, pair.odometry), good = 0.25 * options_.scans.max_distance;
+    double least = given;
+    const Pose* best = nullptr;
+    for (const Pose& rival : rivals)
+      if (differs(rival, pair.odometry, 0.5))
+        if (const double misfit = target.misfit(source, rival); misfit < least) least = misfit, best = &rival;
+    if (!best && given <= good) return std::nullopt;
+    // Align from where each hypothesis begins. Where the odometry fits badly and no rival better, the rivals are tried all the same: they may begin near enough.
+    const Pose own = target.aligned(source, pair.odometry);
+    std::vector<Pose> others;
+    if (best) others.push_back(target.aligned(source, *best));
+    else for (const Pose& rival : rivals) others.push_back(target.aligned(source, rival));
+    others.push_back(own);
+    Pose other = pair.odometry;
+    double other_misfit = given;
+    for (const Pose& aligned : others)
+      if (const double misfit = target.misfit(source, aligned); misfit < other_misfit) other_misfit = misfit, other = aligned;
+    if (other_misfit > good || !differs(other, pair.odometry, 1)) return std::nullopt;
+    // Drift within the reach of ICP is not what is looked for: the odometry must fit much worse as it stands, and also where ICP takes it, unless that is the same place.
+    const double own_misfit = differs(own, other, 0.5) ? target.misfit(source, own) : given;
+    if (other_misfit > options_.max_misfit_ratio * std::min(given, own_misfit)) return std::nullopt;
+    return other;
+  }
+
+  /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found, whichever ends better.
+  void follow(std::size_t n) {
+    Pair& pair = pairs_[n];
+    const Pair& last = pairs_[n - 1];
+    Pose velocity = last.followed.size() > 1 ? last.followed[last.followed.size() - 2].inverse() * last.followed.back()
+                                             : scaled(*last.better, 1.0 / (last.b - last.a));
+    std::vector<Pose> followed;
+    Pose T_a_k;
+    for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
+      ScanTarget target(open_(k - 1)->cloud, options_.scans);
+      const auto source = asked_points(open_(k)->cloud, options_.scans);
+      const Pose given = odometry_.T_world_frame[k - 1].inverse() * odometry_.T_world_frame[k];
+      const Pose from_given = target.aligned(source, given), from_last = target.aligned(source, velocity);
+      velocity = target.misfit(source, from_last) < target.misfit(source, from_given) ? from_last : from_given;
+      T_a_k = T_a_k * velocity;
+      followed.push_back(T_a_k);
+    }
+    if (!differs(T_a_k, pair.odometry, 1)) {
+      pair.better.reset();
+      return;
+    }
+    pair.better = T_a_k;
+    pair.followed = std::move(followed);
+  }
+
+  bool differs(const Pose& x, const Pose& y, double factor) const {
+    const Pose d = x.inverse() * y;
+    return d.translation.norm() > factor * options_.min_translation || angle(d) > factor * options_.min_rotation;
+  }
+
+  void drop_single() {
+    for (std::size_t n = 0; n < pairs_.size(); ++n) {
+      const bool before = n > 0 && pairs_[n - 1].better, after = n + 1 < pairs_.size() && pairs_[n + 1].better;
+      if (pairs_[n].better && !before && !after && !differs(*pairs_[n].better, pairs_[n].odometry, options_.single_factor)) pairs_[n].better.reset();
+    }
+  }
+
+  std::vector<Divergence> divergences() const {
+    std::vector<Divergence> all;
+    for (const Pair& pair : pairs_) {
+      if (!pair.better) continue;
+      if (all.empty() || all.back().last != pair.a) all.push_back({pair.a, pair.b});
+      Divergence& d = all.back();
+      const Pose off = pair.better->inverse() * pair.odometry;
+      d.last = pair.b;
+      d.odometry_path += pair.odometry.translation.norm(), d.registered_path += pair.better->translation.norm();
+      d.odometry_turn += angle(pair.odometry), d.registered_turn += angle(*pair.better);
+      d.translation_off = std::max(d.translation_off, off.translation.norm());
+      d.rotation_off = std::max(d.rotation_off, angle(off));
+    }
+    return all;
+  }
+
+  Trajectory corrected() const {
+    Trajectory result = odometry_;
+    for (const Pair& pair : pairs_)
+      for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
+        const Pose motion = !pair.followed.empty() ? pair.followed[k - pair.a - 1]
+                            : pair.better ? scaled(*pair.better, static_cast<double>(k - pair.a) / (pair.b - pair.a))
+                                          : odometry_.T_world_frame[pair.a].inverse() * odometry_.T_world_frame[k];
+        result.T_world_frame[k] = result.T_world_frame[pair.a] * motion;
+      }
+    return result;
+  }
+
+  const Trajectory& odometry_;
+  const std::function<std::shared_ptr<const Frame>(std::size_t)>& open_;
+  const DivergenceOptions& options_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace
+
+CheckedOdometry check_odometry(const Trajectory& odometry, const std::function<std::shared_ptr<const Frame>(std::size_t)>& open,
+                               const DivergenceOptions& options, Context& context) {
+  return Checker(odometry, open, options).run(context);
+}
+
+std::string kind_of(const Divergence& d) {
+  char text[64];
+  const double ratio = d.registered_path > 0.1 ? d.odometry_path / d.registered_path : 1;
+  const bool turned = d.rotation_off > 0.26 && d.rotation_off * 10 > d.translation_off;
+  if (ratio < 0.1 && d.registered_path > 1) std::snprintf(text, sizeof text, "stands still");
+  else if (turned) std::snprintf(text, sizeof text, "turns by %.0f deg", d.rotation_off * 180 / std::numbers::pi);
+  else if (d.translation_off > 10) std::snprintf(text, sizeof text, "jumps by %.1f m", d.translation_off);
+  else if (ratio > 0.8 && ratio < 1.25) std::snprintf(text, sizeof text, "is off by %.1f m and %.0f deg", d.translation_off, d.rotation_off * 180 / std::numbers::pi);
+  else std::snprintf(text, sizeof text, "has %.1f times the path", ratio);
+  return text;
+}
+
+}  // namespace plumb

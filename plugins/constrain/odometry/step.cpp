@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include "motion_noise.hpp"
+#include "plumb/plugin/module.hpp"
+
+namespace plumb {
+namespace {
+
+struct ConstrainOdometry : WholeStep {
+  struct In {
+    One<Trajectory> trajectory;
+    Each<Range> ranges;
+    One<Poses> registered;
+    One<Metrics> scale;
+  };
+  struct Out {
+    Relations relations;
+    Metrics metrics;
+  };
+  struct Params : MotionNoise {
+    double max_factor = 10;
+    double outlier = 6;
+  };
+
+  static void describe(Declaration<ConstrainOdometry>& is) {
+    is.name("constrain.odometry").version(1).source("ours");
+    is.summary("Makes constraints of the odometry's motions, as firm as the odometry is good.");
+    is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
+    is.input("ranges", &In::ranges, "the frames of each segment, cut from this or any other trajectory of the same frames");
+    is.optional_input("registered", &In::registered,
+                      "where registrations of neighbouring segments put the same segments: tells how good the odometry is, axis by axis");
+    is.scale(&In::scale);
+    is.output("relations", &Out::relations, "the motion from each segment to the next, with its information");
+    is.output("metrics", &Out::metrics, "median deviations that were used, and how many motions contradict the registrations");
+    is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre)).unit("%").range(1e-6, 10)
+        .doc("standard deviation of a motion's translation, of its length");
+    is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre)).unit("rad/m").range(1e-8, 10)
+        .doc("standard deviation of a motion's rotation for each metre of it");
+    is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn)).unit("%").range(0, 10)
+        .doc("the same, of its rotation");
+    is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma)).unit("m").range(1e-6, 1e3)
+        .doc("standard deviation of a motion's translation at rest");
+    is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma)).unit("rad").range(1e-8, 10)
+        .doc("standard deviation of a motion's rotation at rest");
+    is.param("max_factor", &Params::max_factor).range(1, 1e6)
+        .doc("with 'registered': the deviations are scaled to the differences seen, up or down by at most this");
+    is.param("outlier", &Params::outlier).range(1, 1e6)
+        .doc("with 'registered': a motion that differs by more standard deviations is held no firmer than that difference");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    const Poses odometry = middle_poses(in);
+    if (in.registered && in.registered->size() != odometry.size())
+      throw Error("there are " + std::to_string(odometry.size()) + " segments and " + std::to_string(in.registered->size()) +
+                  " registered poses: wire ranges and poses of the same segments");
+    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params, params.max_factor, params.outlier);
+    Out out;
+    out.relations = relations_from(noise.motions);
+    const char* axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
+    for (int axis = 0; axis < 6; ++axis) {
+      std::vector<double> sigmas;
+      for (const auto& motion : noise.motions) sigmas.push_back(motion.sigma[axis]);
+      std::ranges::sort(sigmas);
+      out.metrics.add(std::string("sigma_") + axes[axis], sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
+    }
+    out.metrics.add("outliers", static_cast<double>(noise.outliers.size()), "");
+    context.count("motions of the odometry that contradict the registrations", noise.outliers.size());
+    return out;
+  }
+
+ private:
+  /// The odometry's pose of each segment's middle frame, whose coordinates the segment has.
+  static Poses middle_poses(const In& in) {
+    Poses poses;
+    for (std::size_t k = 0; k < in.ranges.size(); ++k) {
+      const auto range = in.ranges.open(k);
+      if (range->end > in.trajectory->size())
+        throw Error("segment " + std::to_string(k) + " has frames up to " + std::to_string(range->end) + ", the trajectory only " +
+                    std::to_string(in.trajectory->size()) + ": wire ranges of the same frames");
+      poses.T_world_segment.push_back(in.trajectory->T_world_frame[range->first + range->size() / 2]);
+    }
+    return poses;
+  }
+  /// Params inherits its members, which are named by the base.
+  template <class M>
+  static M Params::*as_own(M MotionNoise::*member) {
+    return member;
+  }
+};
+
+}  // namespace
+}  // namespace plumb
+
+PLUMB_MODULE(plumb::ConstrainOdometry)

@@ -1,0 +1,326 @@
+#include "marginals.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "graph_testing.hpp"
+#include "plumb/data/error.hpp"
+
+namespace plumb {
+namespace {
+
+using Joints = std::vector<std::pair<int, int>>;
+
+/// A chain of n blocks and `loops` further joints between random ones.
+Joints chain_with_loops(int n, int loops, std::mt19937& random) {
+  Joints joints;
+  for (int k = 0; k + 1 < n; ++k) joints.emplace_back(k, k + 1);
+  for (int k = 0; k < loops; ++k) {
+    const int a = static_cast<int>(random() % static_cast<unsigned>(n)), b = static_cast<int>(random() % static_cast<unsigned>(n));
+    if (a != b) joints.emplace_back(a, b);
+  }
+  return joints;
+}
+
+Matrix6d random_block(std::mt19937& random) {
+  std::normal_distribution<double> g;
+  Matrix6d block;
+  for (int k = 0; k < 36; ++k) block(k) = g(random);
+  return block;
+}
+
+/// J'J of terms A x_i - B x_j with random A and B, one for each joint, and of block 0, which is held.
+Eigen::MatrixXd normal_equations(int n, const Joints& joints, std::mt19937& random) {
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+  for (const auto& [i, j] : joints) {
+    const Matrix6d a = random_block(random), b = random_block(random);
+    H.block<6, 6>(6 * i, 6 * i) += a.transpose() * a;
+    H.block<6, 6>(6 * j, 6 * j) += b.transpose() * b;
+    H.block<6, 6>(6 * i, 6 * j) -= a.transpose() * b;
+    H.block<6, 6>(6 * j, 6 * i) -= b.transpose() * a;
+  }
+  H.topLeftCorner<6, 6>() += Matrix6d::Identity();
+  return H;
+}
+
+Eigen::SparseMatrix<double> lower_of(const Eigen::MatrixXd& H) {
+  return Eigen::MatrixXd(H.triangularView<Eigen::Lower>()).sparseView(0, 0);
+}
+
+TEST(DiagonalBlocksOfInverse, AreThoseOfTheDenseInverse) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    std::mt19937 random(seed);
+    const int n = 20 + static_cast<int>(4 * seed);
+    Eigen::MatrixXd H = normal_equations(n, chain_with_loops(n, n / 4, random), random);
+    H.diagonal().array() += 0.1;  // keeps the dense inverse good to 1e-12
+    const Eigen::MatrixXd inverse = H.llt().solve(Eigen::MatrixXd::Identity(6 * n, 6 * n));
+    const auto blocks = diagonal_blocks_of_inverse(lower_of(H));
+    ASSERT_EQ(blocks.size(), static_cast<std::size_t>(n));
+    for (int k = 0; k < n; ++k) {
+      const Matrix6d judge = inverse.block<6, 6>(6 * k, 6 * k);
+      EXPECT_LT((blocks[static_cast<std::size_t>(k)] - judge).norm(), 1e-9 * judge.norm()) << "block " << k << " of " << n;
+    }
+  }
+}
+
+TEST(DiagonalBlocksOfInverse, AreSymmetric) {
+  std::mt19937 random(3);
+  const auto blocks = diagonal_blocks_of_inverse(lower_of(normal_equations(30, chain_with_loops(30, 10, random), random)));
+  for (const auto& block : blocks) EXPECT_EQ(block, block.transpose());
+}
+
+TEST(DiagonalBlocksOfInverse, OfUnconnectedBlocksAreTheirInverses) {
+  std::mt19937 random(4);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(18, 18);
+  for (int k = 0; k < 3; ++k) {
+    const Matrix6d a = random_block(random);
+    H.block<6, 6>(6 * k, 6 * k) = a.transpose() * a + Matrix6d::Identity();
+  }
+  const auto blocks = diagonal_blocks_of_inverse(lower_of(H));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT((blocks[static_cast<std::size_t>(k)] * H.block<6, 6>(6 * k, 6 * k) - Matrix6d::Identity()).norm(), 1e-12);
+}
+
+TEST(DiagonalBlocksOfInverse, AreRefusedWhereADirectionIsFree) {
+  Eigen::MatrixXd H = Eigen::MatrixXd::Identity(12, 12);
+  H(9, 9) = 0;
+  EXPECT_THROW(diagonal_blocks_of_inverse(lower_of(H)), Error);
+  H(9, 9) = -1;
+  EXPECT_THROW(diagonal_blocks_of_inverse(lower_of(H)), Error);
+}
+
+TEST(DiagonalBlocksOfInverse, AreRefusedWhereNothingHoldsTheGraph) {
+  // The sum of |x_k - x_k+1|^2: all of them may move together. Small whole numbers, so that the last pivot is 0 without rounding.
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(120, 120);
+  for (int k = 0; k + 6 < 120; ++k) {
+    H(k, k) += 1, H(k + 6, k + 6) += 1;
+    H(k, k + 6) -= 1, H(k + 6, k) -= 1;
+  }
+  try {
+    diagonal_blocks_of_inverse(lower_of(H));
+    FAIL() << "was not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("leaves a direction free"));
+  }
+  H.topLeftCorner<6, 6>() += Matrix6d::Identity();
+  EXPECT_NO_THROW(diagonal_blocks_of_inverse(lower_of(H)));
+}
+
+// ---- uncertainty of poses ---------------------------------------------------------------------------------------------------
+
+constexpr double sigma_t = 0.1, sigma_r = 0.002;  // of each relation: [m], [rad]
+
+RelativePose relation(std::uint32_t i, std::uint32_t j, const Pose& T_i_j) {
+  RelativePose r{i, j, T_i_j, Matrix6d::Zero()};
+  r.information.diagonal().head<3>().setConstant(1 / (sigma_t * sigma_t));
+  r.information.diagonal().tail<3>().setConstant(4 / (sigma_r * sigma_r));  // of q.vec, half the angle
+  return r;
+}
+
+struct Chain {
+  Poses poses;
+  Relations relations;
+};
+
+/// n poses, each `motion` after the one before, and the relations that say so.
+Chain chain_of(int n, const Pose& motion) {
+  Chain chain;
+  chain.poses.T_world_segment.resize(1);
+  for (std::uint32_t k = 1; k < static_cast<std::uint32_t>(n); ++k) {
+    chain.poses.T_world_segment.push_back(chain.poses.T_world_segment.back() * motion);
+    chain.relations.relative.push_back(relation(k - 1, k, motion));
+  }
+  return chain;
+}
+
+/// Least squares with the uncertainty that H alone gives: nothing is added to it for each metre, and only the variance factor multiplies it.
+GraphOptions uncertain() {
+  GraphOptions options;
+  options.loss = Loss::none;
+  options.uncertainty = true;
+  options.uncertainty_factor = 1;
+  options.uncertainty_per_metre = 0;
+  return options;
+}
+
+GraphResult solved(const Chain& chain, const GraphOptions& options) { return solve_pose_graph(chain.poses, {}, &chain.relations, options, in_order); }
+
+double variance_factor(const GraphResult& result) {
+  const auto found = std::ranges::find(result.metrics.numbers, "variance_factor", &Number::name);
+  EXPECT_NE(found, result.metrics.numbers.end());
+  return found == result.metrics.numbers.end() ? 0 : found->value;
+}
+
+/// Each pose's covariance of (t [m], angle [rad]) in its own axes, the first pose's being zero, without the factors that multiply all of them.
+std::vector<Matrix6d> covariances(const Chain& chain, const GraphOptions& options = uncertain()) {
+  const auto result = solved(chain, options);
+  EXPECT_EQ(result.uncertainty.absolute.size(), chain.poses.size() - 1);
+  const double factor = variance_factor(result) * std::pow(options.uncertainty_factor, 2);
+  const Vector6d from_q = (Vector6d() << 1, 1, 1, 2, 2, 2).finished();
+  std::vector<Matrix6d> all(chain.poses.size(), Matrix6d::Zero());
+  for (const auto& a : result.uncertainty.absolute)
+    all[a.i] = from_q.asDiagonal() * a.information.inverse() * from_q.asDiagonal() / factor;
+  return all;
+}
+
+/// What an error (t, angle) in the axes of b becomes in the axes of a, rigidly joined to it.
+Matrix6d carried(const Pose& T_a_b) {
+  Matrix6d m = Matrix6d::Zero();
+  m.topLeftCorner<3, 3>() = m.bottomRightCorner<3, 3>() = T_a_b.matrix();
+  m.topRightCorner<3, 3>() = cross_matrix(T_a_b.translation) * T_a_b.matrix();
+  return m;
+}
+
+TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
+  const auto all = covariances(chain_of(30, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0})));
+  for (int k = 1; k < 30; ++k) {
+    const Matrix6d& c = all[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(c(0, 0), k * sigma_t * sigma_t, 1e-7 * k * sigma_t * sigma_t) << "along, pose " << k;
+    for (int axis = 3; axis < 6; ++axis) EXPECT_NEAR(c(axis, axis), k * sigma_r * sigma_r, 1e-7 * k * sigma_r * sigma_r);
+    double across = 0;  // a relation's angle swings all that follows it
+    for (int from = 1; from <= k; ++from) across += sigma_t * sigma_t + std::pow(sigma_r * 10 * (k - from), 2);
+    EXPECT_NEAR(c(1, 1), across, 1e-7 * across) << "across, pose " << k;
+    EXPECT_NEAR(c(2, 2), across, 1e-7 * across) << "up, pose " << k;
+  }
+}
+
+TEST(Uncertainty, OfABentChainIsWhatEachRelationsErrorBecomesAtItsEnd) {
+  const Chain chain = chain_of(25, Pose(exp_rotation({0.02, -0.05, 0.2}), {6, 1, -0.5}));
+  const auto all = covariances(chain);
+  const Matrix6d one = (Vector6d() << Eigen::Vector3d::Constant(sigma_t * sigma_t), Eigen::Vector3d::Constant(sigma_r * sigma_r)).finished().asDiagonal();
+  for (std::size_t k = 1; k < 25; ++k) {
+    Matrix6d sum = Matrix6d::Zero();
+    for (std::size_t from = 1; from <= k; ++from) {
+      const Matrix6d carry = carried(chain.poses.relative(k, from));
+      sum += carry * one * carry.transpose();
+    }
+    EXPECT_LT((all[k] - sum).norm(), 1e-7 * sum.norm()) << "pose " << k;
+  }
+}
+
+/// Variances in a loop add as resistors do: two ways to a pose are parallel.
+TEST(Uncertainty, IsTighterWithALoop) {
+  constexpr std::uint32_t n = 21;
+  Chain chain = chain_of(n, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
+  const auto open = covariances(chain);
+  // It says 0.3 m more than the chain, or nothing would tell of errors.
+  chain.relations.relative.push_back(relation(0, n - 1, Pose(Eigen::Quaterniond::Identity(), {10.0 * (n - 1) + 0.3, 0, 0})));
+  const auto closed = covariances(chain);
+  for (std::uint32_t k = 1; k < n; ++k) {
+    const double chain_way = k, loop_way = n - k, parallel = chain_way * loop_way / (chain_way + loop_way) * sigma_t * sigma_t;
+    EXPECT_NEAR(closed[k](0, 0), parallel, 1e-6 * parallel) << "pose " << k;
+    for (int axis = 0; axis < 6; ++axis) EXPECT_LT(closed[k](axis, axis), open[k](axis, axis)) << "pose " << k;
+  }
+}
+
+TEST(Uncertainty, IsMultipliedByItsFactor) {
+  const Chain chain = chain_of(5, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
+  auto options = uncertain();
+  const auto once = solved(chain, options);
+  options.uncertainty_factor = 3;
+  const auto thrice = solved(chain, options);
+  // Nothing contradicts a chain, so its relations are believed: the variance factor is 1.
+  EXPECT_EQ(variance_factor(once), 1);
+  EXPECT_NEAR(once.uncertainty.absolute[3].information(0, 0), 1 / (4 * sigma_t * sigma_t), 1e-6);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_LT((9 * thrice.uncertainty.absolute[k].information - once.uncertainty.absolute[k].information).norm(),
+              1e-9 * once.uncertainty.absolute[k].information.norm());
+}
+
+TEST(Uncertainty, GrowsByItsShareOfTheDistanceFromTheFirstPose) {
+  const Chain chain = chain_of(5, Pose(exp_rotation({0, 0, 0.3}), {10, 0, 0}));
+  auto options = uncertain();
+  const auto without = covariances(chain, options);
+  options.uncertainty_per_metre = 0.01;
+  const auto with = covariances(chain, options);
+  for (std::size_t k = 1; k < 5; ++k) {
+    const double more = std::pow(0.01 * chain.poses.T_world_segment[k].translation.norm(), 2);
+    for (int axis = 0; axis < 6; ++axis)
+      EXPECT_NEAR(with[k](axis, axis), without[k](axis, axis) + (axis < 3 ? more : 0), 1e-7 * with[k](axis, axis)) << k << ", " << axis;
+  }
+}
+
+/// Relations of the circle with errors `times` as large as they say.
+Chain noisy_circle(double times, std::uint32_t seed) {
+  const auto g = circle(40, 2, seed);
+  std::mt19937 random(seed);
+  Chain chain{g.truth, {}};
+  for (const auto& e : g.edges)
+    chain.relations.relative.push_back(
+        relation(e.i, e.j, g.truth.relative(e.i, e.j) * Pose(exp_rotation(gauss3(random, times * sigma_r)), gauss3(random, times * sigma_t))));
+  return chain;
+}
+
+TEST(Uncertainty, LearnsFromTheirDisagreementHowLargeTheErrorsAre) {
+  for (const double times : {0.3, 1.0, 2.0}) {
+    double mean = 0;
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) mean += variance_factor(solved(noisy_circle(times, seed), uncertain())) / 5;
+    EXPECT_NEAR(mean / (times * times), 1, 0.15) << times;
+  }
+}
+
+/// e'Omega e of the errors e of poses, whose mean is 6 where Omega is right.
+double mean_squared_error(const GraphResult& result, const Poses& truth) {
+  double sum = 0;
+  for (const auto& a : result.uncertainty.absolute) {
+    const Pose error = a.T_world_i.inverse() * truth.T_world_segment[a.i];
+    Vector6d e;
+    e << error.translation, 0.5 * log_rotation(error.rotation);
+    sum += e.dot(a.information * e);
+  }
+  return sum / static_cast<double>(result.uncertainty.absolute.size());
+}
+
+TEST(Uncertainty, ForetellsHowFarPosesAreFromTheTruth) {
+  double mean = 0;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Chain chain = noisy_circle(1, seed);
+    mean += mean_squared_error(solved(chain, uncertain()), chain.poses) / 10;
+  }
+  EXPECT_NEAR(mean, 6, 1.5);
+}
+
+/// The same of pairs, 40 an edge with 0.05 m of noise, whatever deviation 'scale' says that they have.
+TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
+  for (const double scale : {0.05, 0.5}) {
+    double mean = 0;
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+      const auto g = circle(20, 2, seed);
+      auto options = uncertain();
+      options.scale = scale;
+      mean += mean_squared_error(solve_pose_graph(g.drifted, g.matched(), nullptr, options, in_order), g.truth) / 5;
+    }
+    EXPECT_NEAR(mean, 6, 2) << scale;
+  }
+}
+
+TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {
+  Chain chain = chain_of(6, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
+  EXPECT_TRUE(solved(chain, GraphOptions()).uncertainty.absolute.empty());
+  chain.relations.relative.erase(chain.relations.relative.begin() + 2);  // 0 1 2 | 3 4 5
+  std::vector<std::uint32_t> named;
+  for (const auto& a : solved(chain, uncertain()).uncertainty.absolute) named.push_back(a.i);
+  EXPECT_THAT(named, testing::ElementsAre(1, 2, 4, 5));
+}
+
+TEST(Uncertainty, IsNotGivenInThePlane) {
+  Chain chain = chain_of(6, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
+  chain.relations.planar = true;
+  EXPECT_TRUE(solved(chain, uncertain()).uncertainty.absolute.empty());
+}
+
+TEST(Uncertainty, IsRefusedWhereARelationLeavesAPoseFree) {
+  Chain chain = chain_of(4, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
+  chain.relations.relative.back().information(5, 5) = 0;
+  try {
+    solved(chain, uncertain());
+    FAIL() << "was not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("no uncertainty: give odometry or more edges"));
+  }
+}
+
+}  // namespace
+}  // namespace plumb
