@@ -56,6 +56,16 @@ TEST(Mistakes, InGrains) {
       HasSubstr("its input 'matches' wants Matches, one per edge, but 'edges' gives Edges."));
 }
 
+TEST(Mistakes, InWhatAnEdgeStepTakesOfTheWholePipeline) {
+  // Every edge sees the same Metrics; Matches are still its own.
+  const auto scaled = [](const std::string& from) { return told_with("{matches: found, poses: poses}", "{matches: found, poses: poses, scale: " + from + "}"); };
+  EXPECT_EQ(scaled("drift.solved"), "");
+  EXPECT_EQ(scaled("drift.solved.metrics"), "");
+  EXPECT_THAT(scaled("found"), HasSubstr("its input 'scale' wants Metrics, but 'found' gives Matches, one per edge."));
+  EXPECT_THAT(told_with("{matches: found, poses: poses}", "{matches: drift.solved.metrics, poses: poses}"),
+              HasSubstr("its input 'matches' wants Matches, one per edge, but 'drift.solved.metrics' gives Metrics."));
+}
+
 TEST(Mistakes, InCycles) {
   const std::string text =
       with("{segments: segments, poses: ranges.poses}", "{segments: segments, poses: solved}");

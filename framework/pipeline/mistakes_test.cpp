@@ -37,6 +37,13 @@ TEST(Mistakes, InValues) {
                                      "'leaf': '0.3' has no unit"));
   EXPECT_THAT(leaf("0.3"), HasSubstr("Write the unit, as in '0.3 m'; known: m, cm, mm, km."));
   EXPECT_THAT(leaf("3 deg"), HasSubstr("'3 deg' is an angle, expected a length, 0.01 m to 100 m"));
+  EXPECT_THAT(leaf("3 deg/m"), HasSubstr("'3 deg/m' is a curvature, expected a length, 0.01 m to 100 m"));
+  EXPECT_THAT(told_with("parameters:", "parameters:\n  bend: {type: curvature, default: 3 m}"),
+              HasSubstr("'3 m' is a length, expected a curvature.\n"));
+  EXPECT_THAT(told_with("parameters:", "parameters:\n  bend: {type: curvature, default: 3 m}"), HasSubstr("Known units: deg/m, rad/m."));
+  for (const char* good : {"3 deg/m", "0.1 rad/m"})
+    EXPECT_THAT(told_with("parameters:", std::string("parameters:\n  bend: {type: curvature, default: ") + good + "}"),
+                testing::AllOf(HasSubstr("nothing uses the parameter 'bend'"), testing::Not(HasSubstr("expected"))));
   EXPECT_THAT(leaf("3 metre"), HasSubstr("'metre' behind the number is not a unit"));
   EXPECT_THAT(leaf("3 mm2"), HasSubstr("Did you mean 'mm'?"));
   EXPECT_THAT(leaf("\"3, m\""), HasSubstr("Leave out the quotes."));

@@ -184,15 +184,19 @@ void check_keys(const Node& overlay, const std::vector<std::string>& known, cons
                       did_you_mean(entry.key, known));
 }
 
+/// False for what is no map.
+bool check_also_edits(const Node& edits, Diagnostics& diagnostics) {
+  if (edits.is_map())
+    check_keys(edits, {"name", "about", "remove", "replace", "add", "set"}, "what stands under a pipeline of 'also'", diagnostics);
+  else
+    diagnostics.add(edits.origin, "'also' takes a map of edits for each pipeline, found " + edits.shown() + ".",
+                    "As in also: {../plumb.yaml: {set: {voxel_size: 0.3 m}}}.");
+  return edits.is_map();
+}
+
 void check_also(const Node& overlay, Diagnostics& diagnostics) {
-  const Node* also = map_under(overlay, "also", diagnostics);
-  if (!also) return;
-  for (const Entry& entry : also->entries)
-    if (entry.value.is_map())
-      check_keys(entry.value, {"name", "about", "remove", "replace", "add", "set"}, "what stands under a pipeline of 'also'", diagnostics);
-    else
-      diagnostics.add(entry.value.origin, "'also' takes a map of edits for each pipeline, found " + entry.value.shown() + ".",
-                      "As in also: {../plumb.yaml: {set: {voxel_size: 0.3 m}}}.");
+  if (const Node* also = map_under(overlay, "also", diagnostics))
+    for (const Entry& entry : also->entries) check_also_edits(entry.value, diagnostics);
 }
 
 /// What an overlay and the edits under its 'also' have in common.
@@ -236,7 +240,7 @@ void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics
 }
 
 void apply_also(Node& pipeline, const Node& edits, Diagnostics& diagnostics) {
-  if (edits.is_map()) apply_edits(pipeline, edits, diagnostics);
+  if (check_also_edits(edits, diagnostics)) apply_edits(pipeline, edits, diagnostics);
 }
 
 void apply_set(Node& pipeline, const std::string& option, Diagnostics& diagnostics) {

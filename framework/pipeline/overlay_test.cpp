@@ -167,6 +167,70 @@ TEST_F(Overlays, AreRefusedWhereTheyDoNotFit) {
   EXPECT_THAT(told({}, {"self.yaml"}), HasSubstr("extends itself"));
 }
 
+/// A preset of other.yaml with `edits` for cascade.yaml.
+std::string serving_both(const std::string& edits) {
+  return "plumb: 1\nname: both\nextends: ../other.yaml\nset: {voxel: 1 m}\nalso:\n  ../cascade.yaml: " + edits + "\n";
+}
+
+TEST_F(Overlays, AreLaidOverAnotherPipelineByWhatTheyNameUnderAlso) {
+  folder_.write("other.yaml", cascade);
+  folder_.write("presets/both.yaml", serving_both("{name: mine, set: {ranges.frames: 7}, replace: {coarse.kept: {use: prune.ransac, from: near}}}"));
+  const Plan plan = read({}, {"presets/both.yaml"});
+  EXPECT_EQ(plan.name, "mine");
+  EXPECT_EQ(value(plan, "ranges", "frames"), ParameterValue(std::int64_t{7}));
+  EXPECT_EQ(step(plan, "coarse.kept")->description->name, "prune.ransac");
+  EXPECT_EQ(value(plan, "segments", "leaf"), ParameterValue(0.3)) << "what it sets in other.yaml is not set here";
+  EXPECT_EQ(plan.files.size(), 2u);
+  const Plan own = read_pipeline(folder_.path() / "presets/both.yaml", {{}, {"input=data"}, false}, test::registry());
+  EXPECT_EQ(own.name, "both");
+  EXPECT_EQ(value(own, "segments", "leaf"), ParameterValue(1.0));
+  EXPECT_EQ(value(own, "ranges", "frames"), ParameterValue(std::int64_t{30}));
+  EXPECT_EQ(value(read({"ranges.frames=9"}, {"presets/both.yaml"}), "ranges", "frames"), ParameterValue(std::int64_t{9}));
+}
+
+TEST_F(Overlays, NameWhatCannotStandUnderAlsoWhicheverPipelineTheyAreLaidOver) {
+  folder_.write("other.yaml", cascade);
+  folder_.write("presets/p.yaml", serving_both("{ste: {voxel: 2 m}}"));
+  folder_.write("presets/q.yaml", serving_both("voxel"));
+  const auto alone = [&](const char* preset) -> std::string {
+    try {
+      read_pipeline(folder_.path() / preset, {{}, {"input=data"}, false}, test::registry());
+    } catch (const PipelineError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::string& told_of_p : {told({}, {"presets/p.yaml"}), alone("presets/p.yaml")})
+    EXPECT_THAT(told_of_p, testing::AllOf(HasSubstr("p.yaml:6:21: what stands under a pipeline of 'also' has no key 'ste'."), HasSubstr("Did you mean 'set'?")));
+  for (const std::string& told_of_q : {told({}, {"presets/q.yaml"}), alone("presets/q.yaml")})
+    EXPECT_THAT(told_of_q, HasSubstr("q.yaml:6:20: 'also' takes a map of edits for each pipeline, found "));
+  folder_.write("presets/r.yaml", serving_both("{set: {voxle: 2 m}}"));
+  EXPECT_THAT(told({}, {"presets/r.yaml"}), HasSubstr("r.yaml:6:27: the pipeline has no parameter 'voxle'."));
+  folder_.write("s.yaml", "plumb: 1\nextends: cascade.yaml\nalso: voxel\n");
+  EXPECT_THAT(told({}, {"s.yaml"}), HasSubstr("s.yaml:3:7: 'also'"));
+}
+
+TEST_F(Overlays, AreRefusedOverAPipelineThatTheyNeitherExtendNorNameUnderAlso) {
+  folder_.write("other.yaml", cascade);
+  folder_.write("third.yaml", cascade);
+  folder_.write("a.yaml", "plumb: 1\nextends: other.yaml\nset: {voxel: 1 m}\n");
+  folder_.write("b.yaml", "plumb: 1\nextends: other.yaml\nalso: {third.yaml: {set: {voxel: 1 m}}}\n");
+  for (const char* name : {"a.yaml", "b.yaml"}) {
+    const std::string text = told({}, {name});
+    EXPECT_THAT(text, HasSubstr(std::string(name) + ":2:10: this preset extends '"));
+    EXPECT_THAT(text, HasSubstr("Run it by itself, or name the edits for that pipeline in it under 'also'."));
+  }
+}
+
+TEST_F(Overlays, OfAChainOfPresetsAreAllLaidOverByWhatEachNamesUnderAlso) {
+  folder_.write("other.yaml", cascade);
+  folder_.write("one.yaml", "plumb: 1\nextends: other.yaml\nalso: {cascade.yaml: {set: {voxel: 1 m, ranges.frames: 7}}}\n");
+  folder_.write("two.yaml", "plumb: 1\nextends: one.yaml\nalso: {cascade.yaml: {set: {voxel: 2 m}}}\n");
+  const Plan plan = read({}, {"two.yaml"});
+  EXPECT_EQ(value(plan, "segments", "leaf"), ParameterValue(2.0));
+  EXPECT_EQ(value(plan, "ranges", "frames"), ParameterValue(std::int64_t{7}));
+}
+
 TEST_F(Overlays, AreFoundByTheirNameBesideThePipeline) {
   const auto preset = folder_.write("presets/car.yaml", "plumb: 1\nextends: ../cascade.yaml\nset: {voxel: 1 m}\n");
   for (const char* name : {"car", "cra", "car.yaml", "else/car.yaml"})

@@ -68,6 +68,7 @@ struct PruneDistance : EdgeStep {
     One<Matches> matches;
     Relative poses;
     ThisEdge edges;
+    One<Metrics> scale;
   };
   struct Out {
     Matches matches;
@@ -79,7 +80,8 @@ struct PruneDistance : EdgeStep {
     is.name("prune.distance");
     is.input("matches", &In::matches, "")
         .input("poses", &In::poses, "")
-        .optional_input("edges", &In::edges, "");
+        .optional_input("edges", &In::edges, "")
+        .scale(&In::scale);
     is.output("matches", &Out::matches, "");
     is.param("max", &Params::max).unit("m").range(0, 1000).doc("farthest apart");
   }

@@ -257,7 +257,8 @@ TEST(AcceptPoses, GivesTheMeanDistancesOfBothClassesBeforeAndAfter) {
 }
 
 TEST(AcceptPoses, AsksTheSamePointsUnderBothPoses) {
-  // The first half of j is seen before, all of it after: the second half, in which j is wrong by 0.5 m, counts as badly before.
+  // Before, only half of i lies at j, and where j fits; after it all of i does, also where j is 0.5 m off. Points chosen for each pose
+  // alone would fit before, and the stage would be refused.
   Stage stage;
   Cloud i, j;
   for (int k = 0; k < 200; ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace plumb {
@@ -24,7 +25,14 @@ class Checker {
  public:
   Checker(const Trajectory& odometry, const std::function<std::shared_ptr<const Frame>(std::size_t)>& open, const DivergenceOptions& options)
       : odometry_(odometry), open_(open), options_(options) {
-    const auto path = travelled(odometry);
+    // Where the odometry stands still the sensor may not: each frame counts for at least the usual motion.
+    auto path = travelled(odometry);
+    std::vector<double> steps(path.size(), 0);
+    std::adjacent_difference(path.begin(), path.end(), steps.begin());
+    std::vector<double> sorted = steps;
+    std::ranges::sort(sorted);
+    const double usual = sorted.empty() ? 0 : sorted[sorted.size() * 3 / 4];
+    for (std::size_t k = 1; k < path.size(); ++k) path[k] = path[k - 1] + std::max(steps[k], usual);
     for (std::uint32_t a = 0, b = 1; b < odometry.size(); ++b)
       if (path[b] - path[a] >= options.length || b - a >= options.max_frames || b + 1 == odometry.size()) {
         pairs_.push_back({a, b, odometry.T_world_frame[a].inverse() * odometry.T_world_frame[b], {}, {}});
@@ -56,19 +64,19 @@ class Checker {
       const double frames = static_cast<double>(pair.b - pair.a) / static_cast<double>(pairs_[n - 1].b - pairs_[n - 1].a);
       rivals.push_back(scaled(*before, frames));
     }
-    const double given = target.misfit(source, pair.odometry), good = 0.25 * options_.scans.max_distance;
-    double least = given;
-    const Pose* best = nullptr;
-    for (const Pose& rival : rivals)
-      if (differs(rival, pair.odometry, 0.5))
-        if (const double misfit = target.misfit(source, rival); misfit < least) least = misfit, best = &rival;
-    if (!best && given <= good) return std::nullopt;
-    // Align from where each hypothesis begins. Where the odometry fits badly and no rival better, the rivals are tried all the same: they may begin near enough.
+    if (n + 1 < pairs_.size()) {
+      const double frames = static_cast<double>(pair.b - pair.a) / static_cast<double>(pairs_[n + 1].b - pairs_[n + 1].a);
+      rivals.push_back(scaled(pairs_[n + 1].odometry, frames));
+    }
+    const double given = target.misfit(source, pair.odometry);
+    double good = 0.25 * options_.scans.max_distance;
+    const bool rivalled = std::ranges::any_of(rivals, [&](const Pose& rival) { return differs(rival, pair.odometry, 0.5) && target.misfit(source, rival) < given; });
+    if (!rivalled && given <= good) return std::nullopt;
+    good = std::max(good, 1.3 * best_neighbour_misfit(n));
+    // Align from where each hypothesis begins: one that fits no better than the rest may still begin near enough.
     const Pose own = target.aligned(source, pair.odometry);
-    std::vector<Pose> others;
-    if (best) others.push_back(target.aligned(source, *best));
-    else for (const Pose& rival : rivals) others.push_back(target.aligned(source, rival));
-    others.push_back(own);
+    std::vector<Pose> others{own};
+    for (const Pose& rival : rivals) others.push_back(target.aligned(source, rival));
     Pose other = pair.odometry;
     double other_misfit = given;
     for (const Pose& aligned : others)
@@ -78,6 +86,17 @@ class Checker {
     const double own_misfit = differs(own, other, 0.5) ? target.misfit(source, own) : given;
     if (other_misfit > options_.max_misfit_ratio * std::min(given, own_misfit)) return std::nullopt;
     return other;
+  }
+
+  /// What the odometry's misfit is beside pair n, on the side where it is less: in a corner also right motions fit badly.
+  double best_neighbour_misfit(std::size_t n) const {
+    double least = options_.scans.max_distance;
+    for (const std::size_t beside : {n - 1, n + 1}) {
+      if (beside >= pairs_.size()) continue;
+      ScanTarget target(open_(pairs_[beside].a)->cloud, options_.scans);
+      least = std::min(least, target.misfit(asked_points(open_(pairs_[beside].b)->cloud, options_.scans), pairs_[beside].odometry));
+    }
+    return least;
   }
 
   /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found, whichever ends better.

@@ -27,10 +27,10 @@ struct CheckOdometry : WholeStep {
     double voxel_size = 0.4;
     double max_distance = 1;
     std::uint32_t max_points = 500;
-    double length = 2;
+    double length = 3;
     std::uint32_t max_frames = 5;
     double max_misfit_ratio = 0.6;
-    double min_translation = 1;
+    double min_translation = 0.7;
     double single_factor = 4;
     double min_rotation = 10 * std::numbers::pi / 180;
   };
@@ -47,7 +47,7 @@ struct CheckOdometry : WholeStep {
     is.param("max_distance", &Params::max_distance).unit("m").range(0.01, 1000)
         .doc("points without a nearer one in the other scan count as if they were so far off");
     is.param("max_points", &Params::max_points).range(50, 1e6).doc("points of a scan that are asked, evenly chosen");
-    is.param("length", &Params::length).unit("m").range(0, 1e6).doc("path between two scans that are compared, at least");
+    is.param("length", &Params::length).unit("m").range(0, 1e6).doc("path between two scans that are compared, at least; a frame counts for no less than three quarters of them move");
     is.param("max_frames", &Params::max_frames).range(1, 1e6).doc("frames between them at most, however little they moved");
     is.param("max_misfit_ratio", &Params::max_misfit_ratio).unit("%").range(0, 1)
         .doc("the odometry is contradicted where another motion's misfit is at most this share of its own");

@@ -106,6 +106,75 @@ TEST(Normals, AreTheSameForOneAndForFourThreads) {
   EXPECT_EQ(one.nz, four.nz);
 }
 
+/// Points along x with noise of `across` [m] in y and z.
+Cloud noisy_line(float across) {
+  Random random(6);
+  Cloud cloud;
+  for (int k = 0; k < 600; ++k)
+    cloud.add({0.01f * static_cast<float>(k), across * static_cast<float>(2 * random.uniform() - 1), across * static_cast<float>(2 * random.uniform() - 1)});
+  return cloud;
+}
+Cloud volume() {
+  Random random(7);
+  const auto u = [&] { return static_cast<float>(4 * random.uniform()); };
+  Cloud cloud;
+  for (int k = 0; k < 2000; ++k) {
+    const float x = u(), y = u(), z = u();
+    cloud.add({x, y, z});
+  }
+  return cloud;
+}
+Neighbourhood with_shares(Neighbourhood of, double min_width, double max_thickness) {
+  of.min_width = min_width;
+  of.max_thickness = max_thickness;
+  return of;
+}
+
+TEST(Normals, AreZeroAlongANoisyLineWhereAWidthIsAskedFor) {
+  Cloud cloud = noisy_line(0.02f);
+  const std::size_t all = cloud.size();
+  EXPECT_EQ(estimate(cloud, with_shares({0.5, {}}, 0.2, 1), {3, 0, 9}), all);
+  for (std::size_t k = 0; k < all; ++k) EXPECT_TRUE(cloud.normal(k).isZero());
+  EXPECT_EQ(estimate(cloud, {0.5, {}}, {3, 0, 9}), 0u) << "without it noise makes a plane of the line";
+}
+
+TEST(Normals, AreZeroInAVolumeWhereAThicknessIsAllowed) {
+  Cloud cloud = volume();
+  const std::size_t all = cloud.size();
+  EXPECT_EQ(estimate(cloud, with_shares({1.0, 200}, 1e-3, 0.3), {2, 2, 20}), all);
+  for (std::size_t k = 0; k < all; ++k) EXPECT_TRUE(cloud.normal(k).isZero());
+  EXPECT_EQ(estimate(cloud, {1.0, 200}, {2, 2, 20}), 0u) << "without it any volume has normals";
+}
+
+TEST(Normals, OfAPlaneAreThereUnderBothShares) {
+  Cloud cloud = plane(Eigen::Vector3f(1, 2, -3).normalized(), 2000, 0.02f, 8), before = cloud;
+  EXPECT_EQ(estimate(cloud, with_shares({1.0, 60}, 0.2, 0.3), {5, 5, 5}), 0u);
+  estimate(before, {1.0, 60}, {5, 5, 5});
+  EXPECT_EQ(cloud.nx, before.nx);
+  EXPECT_EQ(cloud.ny, before.ny);
+  EXPECT_EQ(cloud.nz, before.nz);
+}
+
+TEST(PlaneNormal, IsThereFromTheLeastWidthToTheMostThickness) {
+  // A box's eight corners: spreads along its axes are its half sides, whose shares are known.
+  const auto box = [](float a, float b, float c) {
+    std::vector<Eigen::Vector3f> points;
+    for (const float x : {-a, a})
+      for (const float y : {-b, b})
+        for (const float z : {-c, c}) points.emplace_back(x, y, z);
+    return points;
+  };
+  const auto has_one = [](const std::vector<Eigen::Vector3f>& points, double min_width, double max_thickness) {
+    return !plane_normal(points.data(), points.size(), min_width, max_thickness).isZero();
+  };
+  EXPECT_TRUE(has_one(box(1, 0.5f, 0.1f), 0.49, 0.21));
+  EXPECT_FALSE(has_one(box(1, 0.5f, 0.1f), 0.51, 0.21)) << "0.5 of the length wide";
+  EXPECT_FALSE(has_one(box(1, 0.5f, 0.1f), 0.49, 0.19)) << "0.2 of the width thick";
+  EXPECT_TRUE(has_one(box(1, 1, 1), 1e-3, 1)) << "the defaults ask for no surface";
+  EXPECT_TRUE(has_one(box(1, 0.0011f, 0), 1e-3, 1));
+  EXPECT_FALSE(has_one(box(1, 0.0009f, 0), 1e-3, 1)) << "1 mm on 1 m is a line";
+}
+
 TEST(Normals, OfAnEmptyCloudAreEmpty) {
   Cloud cloud;
   EXPECT_EQ(estimate(cloud, {1.0, 30}, {0, 0, 0}), 0u);

@@ -31,6 +31,22 @@ TEST(EstimateNormalsStep, TurnsEachNormalToTheSensorOfItsOwnFrame) {
   EXPECT_EQ(context.counts["points without a normal"], 1u);
 }
 
+TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
+  // Rows 2 m apart, points 0.2 m: within 1 m of a point lies its own row only, with 1 cm of noise to its sides.
+  Random random(1);
+  Segment rows = patch();
+  for (std::size_t k = 0; k < 400; ++k) rows.cloud.y[k] = 10 * rows.cloud.y[k] + 0.02f * static_cast<float>(random.uniform() - 0.5);
+  rows = rows.with(rows.cloud, rows.frame);
+  for (const bool wide : {false, true}) {
+    TestContext context;
+    StepRun step(*plumb_module());
+    step.with("segment", rows);
+    if (wide) step.set("min_width", 0.2);
+    step.run<Segment>("segment", context);
+    EXPECT_EQ(context.counts["points without a normal"], wide ? 401u : 1u);
+  }
+}
+
 TEST(EstimateNormalsStep, RefusesANeighbourhoodWithoutBounds) {
   TestContext context;
   StepRun step(*plumb_module());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace plumb {
 namespace {
@@ -11,6 +12,9 @@ struct Comparison {
   std::uint32_t a, b;
   bool agree;
 };
+
+/// A comparison tells something where it is no coarser than so many times what two loops alone allow.
+constexpr double informative = 6;
 
 class Judge {
  public:
@@ -54,8 +58,9 @@ class Judge {
     return path(a.i, b.i) <= options_.neighbourhood && path(a.j, b.j) <= options_.neighbourhood;
   }
 
-  /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the poses between exact.
-  bool agree(const Loop& a, const Loop& b) const {
+  /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the poses between exact. Nothing where so much path lies
+  /// between them that it could not tell.
+  std::optional<bool> agree(const Loop& a, const Loop& b) const {
     const Pose cycle = a.T_i_j * poses_.relative(a.j, b.j) * b.T_i_j.inverse() * poses_.relative(b.i, a.i);
     const double at_i = path(a.i, b.i), at_j = path(a.j, b.j);
     const double lever = distance(a.j, b.j) + distance(a.i, b.i);
@@ -65,6 +70,7 @@ class Judge {
                                       std::pow(options_.drift.position(at_i, distance(a.i, b.i)), 2) +
                                       std::pow(options_.drift.position(at_j, distance(a.j, b.j)), 2) +
                                       std::pow(std::hypot(a.sigma_rotation, b.sigma_rotation) * lever, 2));
+    if (position > informative * std::hypot(a.sigma_translation, b.sigma_translation)) return std::nullopt;
     return cycle.translation.norm() <= options_.max_deviation * position && angle(cycle) <= options_.max_deviation * rotation;
   }
 
@@ -79,7 +85,8 @@ class Judge {
       for (std::size_t y = x + 1; y < order.size(); ++y) {
         const Loop &a = loops_[order[x]], &b = loops_[order[y]];
         if (path(a.i, b.i) > options_.neighbourhood) break;
-        if (near(a, b)) all.push_back({order[x], order[y], agree(a, b)});
+        if (!near(a, b)) continue;
+        if (const auto told = agree(a, b)) all.push_back({order[x], order[y], *told});
       }
     return all;
   }

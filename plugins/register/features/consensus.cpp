@@ -76,6 +76,7 @@ Consensus grown(const Matches& matches, std::vector<std::uint32_t> pairs, double
     pairs = next.inliers;
     best = std::move(next);
   }
+  if (best.inliers.size() >= 3) best.T_j_i = fit(matches, best.inliers);
   return best;
 }
 

@@ -1,5 +1,6 @@
 #include "refine.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,8 @@ struct PlanePair {
 struct Asked {
   std::vector<PlanePair> pairs;
   std::size_t asked = 0;
+  std::vector<Eigen::Vector3f> normals;  ///< of all points asked, in their own cloud
+  std::vector<bool> paired;              ///< of each of these
 };
 
 /// Points of `a` in the box of `b`, at most `most`, with the nearest of b within `max` and a normal that agrees.
@@ -33,10 +36,13 @@ Asked pairs_of(const Segment& a, const Segment& b, const Pose& T_b_a, double max
   const auto cosine = static_cast<float>(std::cos(max_angle));
   for (std::size_t s = 0; s < n; ++s) {
     const std::uint32_t k = inside[s * inside.size() / n];
+    result.normals.push_back(a.cloud.normal(k));
+    result.paired.push_back(false);
     SearchTree::Neighbour nearest;
     if (!b.tree().nearest_within(motion * a.cloud.point(k), margin, nearest)) continue;
     const Eigen::Vector3f normal = b.cloud.normal(nearest.index);
     if ((motion.r * a.cloud.normal(k)).dot(normal) < cosine) continue;  // also where either is unknown
+    result.paired.back() = true;
     result.pairs.push_back({a.cloud.point(k).cast<double>(), b.cloud.point(nearest.index).cast<double>(), normal.cast<double>()});
   }
   return result;
@@ -56,7 +62,21 @@ Pose step(const std::vector<PlanePair>& pairs, const Pose& T_j_i, double scale) 
   return fitted({{T_j_i, centre}, factor_of(sums.moments())}, 5);
 }
 
-double share(const Asked& asked) { return asked.asked ? static_cast<double>(asked.pairs.size()) / static_cast<double>(asked.asked) : 0; }
+/// Share of the points asked that have a pair; also that of the points alone whose normals are not along the commonest direction (the ground lies on itself wherever a cloud
+/// is put), whichever is less.
+double share(const Asked& asked) {
+  if (asked.asked == 0) return 0;
+  const double all = static_cast<double>(asked.pairs.size()) / static_cast<double>(asked.asked);
+  Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
+  for (const auto& normal : asked.normals) scatter += normal * normal.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
+  eigen.computeDirect(scatter);
+  const Eigen::Vector3f commonest = eigen.eigenvectors().col(2);
+  double others = 0, paired = 0;
+  for (std::size_t k = 0; k < asked.normals.size(); ++k)
+    if (!asked.normals[k].isZero() && std::abs(asked.normals[k].dot(commonest)) < 0.7f) ++others, paired += asked.paired[k];
+  return others < 30 ? all : std::min(all, paired / others);
+}
 
 }  // namespace
 

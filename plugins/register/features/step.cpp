@@ -50,7 +50,7 @@ struct RegisterFeatures : EdgeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment &i = *in.segments.i, &j = *in.segments.j;
     if ((!i.cloud.empty() && !i.cloud.has_normals()) || (!j.cloud.empty() && !j.cloud.has_normals()))
-      throw Error("register.features: the segments have no normals; put estimate.normals before it");
+      throw Error("the segments have no normals; put estimate.normals before it");
     const Consensus agreed = consensus_of(*in.matches, {params.tolerance, 6 * params.tolerance, params.max_pairs});
     if (agreed.inliers.size() < params.min_inliers) {
       context.count("edges whose matches agree on no motion", 1);

@@ -50,12 +50,12 @@ TEST(SegmentByDistance, MeasuresThePathAndNotTheDistanceFromTheStart) {
         {Eigen::Quaterniond::Identity(), {static_cast<double>(k % 2), 0, 0}});
   }
   const Step& step = *plumb_module()->steps[0];
-  PortInput input;
-  input.wired = true;
-  input.one = any_value(trajectory);
+  PortInput inputs[2];
+  inputs[0].wired = true;
+  inputs[0].one = any_value(trajectory);
   PortOutput outputs[2];
   TestContext context;
-  step.run(step.parameters({{"length", 4.0}}).get(), {&input, 1}, outputs, context);
+  step.run(step.parameters({{"length", 4.0}}).get(), inputs, outputs, context);
   ASSERT_EQ(outputs[0].many.size(), 2u);
   EXPECT_EQ(outputs[0].many[0].as<Range>()->end, 5u);
   EXPECT_EQ(outputs[0].many[1].as<Range>()->end, 11u);
@@ -66,6 +66,71 @@ TEST(ByDistance, ATurnBeginsASegmentTooAndKeepsItsLastOne) {
   const std::vector<double> heading = {0, 0.1, 0.2, 0.4, 0.5, 0.9};
   const auto breaks = [&](std::size_t first, std::size_t k) { return heading[k] - heading[first] > 0.25; };
   EXPECT_THAT(starts_by_distance({0, 0, 0, 0, 0, 0}, 1, {}, breaks), ElementsAre(0, 3, 5));
+}
+
+TEST(GrownLength, StaysWhereThePathMakesFewEnough) {
+  EXPECT_EQ(grown_length(1000, 10, 50.0, 100), 10);
+  EXPECT_EQ(grown_length(5, 10, 50.0, 100), 10);
+  EXPECT_EQ(grown_length(0, 10, 50.0, 100), 10);
+}
+
+TEST(GrownLength, GrowsWithThePathUpToTheMost) {
+  EXPECT_DOUBLE_EQ(grown_length(3000, 10, 50.0, 100), 30);
+  EXPECT_EQ(grown_length(5000, 10, 50.0, 100), 50);
+  EXPECT_EQ(grown_length(1e6, 10, 50.0, 100), 50);
+}
+
+TEST(GrownLength, DoesNotGrowWithoutAMost) { EXPECT_EQ(grown_length(1e6, 10, {}, 1), 10); }
+
+TEST(GrownLength, MakesNoMoreSegmentsThanAskedForHoweverFramesLie) {
+  Random random(1);
+  for (const std::size_t most : {1u, 2u, 7u, 40u}) {
+    std::vector<double> travelled{0};
+    while (travelled.size() < 2000) travelled.push_back(travelled.back() + 3 * random.uniform());
+    const double length = grown_length(travelled.back(), 1, 1e6, most);
+    const auto segments = starts_by_distance(travelled, length, {}).size();
+    EXPECT_LE(segments, most);
+    EXPECT_GE(segments, most - most / 5) << "and not much fewer";
+  }
+}
+
+/// Ends of the segments of `frames` frames, 1 m apart.
+std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& values) {
+  Trajectory trajectory;
+  for (std::size_t k = 0; k < frames; ++k) {
+    trajectory.stamps.push_back(static_cast<double>(k));
+    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
+  }
+  const Step& step = *plumb_module()->steps[0];
+  std::vector<PortInput> inputs(step.description().inputs.size());
+  inputs[0].wired = true;
+  inputs[0].one = any_value(trajectory);
+  PortOutput outputs[2];
+  TestContext context;
+  step.run(step.parameters(values).get(), inputs, outputs, context);
+  std::vector<std::size_t> ends;
+  for (const auto& range : outputs[0].many) ends.push_back(range.as<Range>()->end);
+  return ends;
+}
+
+TEST(SegmentByDistance, GrowsItsSegmentsOnALongWayWhenToldTo) {
+  using Values = ParameterValues;
+  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}}).size(), 20u);
+  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}, {"max_segments", std::int64_t{5}}}).size(), 20u) << "only with max_length";
+  EXPECT_THAT(ends_of(101, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}), ElementsAre(21, 42, 63, 84, 101));
+  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}, {"max_length", 9.0}, {"max_segments", std::int64_t{5}}}).size(), 10u);
+  EXPECT_EQ(ends_of(21, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}), ends_of(21, Values{{"length", 4.0}}));
+}
+
+TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {
+  const Step& step = *plumb_module()->steps[0];
+  try {
+    step.parameters({{"length", 15.0}, {"max_length", 10.0}});
+    FAIL() << "was not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("max_length must not be smaller than length"));
+  }
+  EXPECT_NO_THROW(step.parameters({{"length", 15.0}, {"max_length", 15.0}}));
 }
 
 }  // namespace

@@ -319,8 +319,10 @@ class Graph {
       if (!term->robust && edges_.empty()) terms += 6, sum += squared(*term);
       if (term->robust && term->root_weight > 0.7) terms += 6, sum += squared(*term);
     }
-    const double freedom = terms - 6 * static_cast<double>(blocks_.size());
-    return freedom > 0 && sum > 0 ? sum / freedom : 1;
+    double free = 0;
+    for (const auto& block : blocks_) free += !problem_->IsParameterBlockConstant(block.data());
+    const double freedom = terms - 6 * free;
+    return freedom > 0 ? std::max(1e-4, sum / freedom) : 1;
   }
 
   void add_uncertainty(GraphResult& result) const {
@@ -336,7 +338,13 @@ class Graph {
     for (const auto id : ids) add_normal_equations(id, place, entries);
     Eigen::SparseMatrix<double> lower(6 * free, 6 * free);
     lower.setFromTriplets(entries.begin(), entries.end());
-    const auto covariances = diagonal_blocks_of_inverse(lower);
+    std::vector<Matrix6d> covariances;
+    try {
+      covariances = diagonal_blocks_of_inverse(lower);
+    } catch (const Error& e) {
+      result.warnings.push_back(e.what());
+      return;
+    }
     const double factor = variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
     for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
       if (place[k] < 0) continue;

@@ -217,6 +217,42 @@ TEST(Relations, OfWhichATenthAreFalseLoopsAreLetGo) {
   for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].fate, "rejected");
 }
 
+/// The circle's relations that are sequential, or the others.
+Relations only(const Relations& all, bool sequential) {
+  Relations some;
+  for (const auto& r : all.relative)
+    if ((r.j == r.i + 1) == sequential) some.relative.push_back(r);
+  return some;
+}
+
+TEST(Relations, ThatAreSequentialArePriorsWithoutARecordBesideMatches) {
+  const auto g = circle(20, 2, 1);
+  const auto all = relations_of(g, 4), chain = only(all, true), loops = only(all, false);
+  ASSERT_EQ(chain.relative.size(), 39u);
+  ASSERT_EQ(loops.relative.size(), 20u);
+  const auto edges = g.matched();
+  const auto records = [&](std::span<const MatchedEdge> matched, const Relations& relations) {
+    return solve_pose_graph(g.drifted, matched, &relations, GraphOptions(), in_order).metrics.edges.size();
+  };
+  EXPECT_EQ(records(edges, chain), edges.size());
+  EXPECT_EQ(records(edges, all), edges.size() + 20) << "loops keep theirs";
+  EXPECT_EQ(records({}, all), 59u) << "and so does the chain where there are no matches";
+}
+
+TEST(Relations, OfAChainHoldASegmentWhosePairsAreMissingBesideMatches) {
+  auto g = circle(20, 2, 1);
+  Relations chain = only(relations_of(g, 4), true);
+  const auto hole = [&](const Edge& e) { return e.i == 10 || e.j == 10; };
+  for (std::size_t k = 0; k < g.edges.size(); ++k)
+    if (hole(g.edges[k])) g.matches[k] = Matches();
+  const auto result = solve_pose_graph(g.drifted, g.matched(), &chain, GraphOptions(), in_order);
+  EXPECT_TRUE(result.warnings.empty());
+  for (const auto& note : result.metrics.notes) EXPECT_THAT(note, testing::Not(testing::HasSubstr("not joined")));
+  const Pose error = g.truth.relative(9, 10).inverse() * result.poses.relative(9, 10);
+  EXPECT_LT(error.translation.norm(), 0.2);
+  EXPECT_EQ(solve_pose_graph(g.drifted, g.matched(), nullptr, GraphOptions(), in_order).warnings.size(), 1u) << "without the chain it is a part of its own";
+}
+
 TEST(Relations, TheChordalErrorGivesNearlyTheSamePoses) {
   const auto g = circle(30, 2, 2);
   const auto relations = relations_of(g, 5);

@@ -53,14 +53,14 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
   return rows;
 }
 
-TEST(UncertaintyOfSegments, TurnsThePositionIntoTheWorldAndCountsWholeAngles) {
+TEST(UncertaintyOfSegments, TurnsPositionAndRotationIntoTheWorldAndCountsWholeAngles) {
   const Pose facing_y(exp_rotation({0, 0, M_PI / 2}), {10, 20, 0});
   Relations relations;
   relations.absolute = {known(1, facing_y, diagonal({4, 1, 0.25}, {0.01, 0.02, 0.03}))};
   const auto segments = uncertainty_of(relations, 3);
   ASSERT_EQ(segments.size(), 3u);
   EXPECT_LT((segments[1].position - Eigen::Matrix3d(Eigen::Vector3d(1, 4, 0.25).asDiagonal())).norm(), 1e-9) << "its x points along the world's y";
-  EXPECT_LT((segments[1].rotation - Eigen::Matrix3d(Eigen::Vector3d(0.04, 0.08, 0.12).asDiagonal())).norm(), 1e-9);
+  EXPECT_LT((segments[1].rotation - Eigen::Matrix3d(Eigen::Vector3d(0.08, 0.04, 0.12).asDiagonal())).norm(), 1e-9) << "and so do its rolls";
 }
 
 TEST(UncertaintyOfSegments, IsThatOfPosesDrawnAtRandom) {
@@ -83,7 +83,7 @@ TEST(UncertaintyOfSegments, IsThatOfPosesDrawnAtRandom) {
     q.vec() = e.tail<3>();
     q.w() = std::sqrt(1 - q.vec().squaredNorm());
     const Pose drawn = T * Pose(q, e.head<3>());
-    const Eigen::Vector3d t = drawn.translation - T.translation, w = log_rotation(T.rotation.conjugate() * drawn.rotation);
+    const Eigen::Vector3d t = drawn.translation - T.translation, w = log_rotation(drawn.rotation * T.rotation.conjugate());  // in the world
     position += t * t.transpose() / draws;
     rotation += w * w.transpose() / draws;
   }
@@ -130,6 +130,37 @@ TEST(UncertaintyTable, HasALineOfNamesAndANumberForEachOfThem) {
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_THAT(rows[0], testing::Pointwise(testing::DoubleNear(1e-9), std::vector<double>{1e9, 0, 0.5, -2, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_THAT(rows[1], testing::Pointwise(testing::DoubleNear(1e-6), std::vector<double>{1e9 + 0.1, 1, 0.5, -2, 1, 2, 3, 4, 5, 6, 0.01, 0.02, 0.03}));
+}
+
+TEST(UncertaintyTable, GivesDeviationsAboutTheAxesOfEachFrame) {
+  Trajectory trajectory = along_x(2);
+  trajectory.T_world_frame[1].rotation = exp_rotation({0, 0, M_PI / 2});
+  PoseUncertainty uncertainty;  // about the world's x, y and z
+  uncertainty.rotation.diagonal() << 1e-4, 4e-4, 9e-4;
+  const auto rows = rows_of(uncertainty_table(trajectory, {uncertainty, uncertainty}));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(rows[0][10], 0.01, 1e-7);
+  EXPECT_NEAR(rows[0][11], 0.02, 1e-7);
+  EXPECT_NEAR(rows[1][10], 0.02, 1e-7) << "its x points along the world's y";
+  EXPECT_NEAR(rows[1][11], 0.01, 1e-7);
+  EXPECT_NEAR(rows[1][12], 0.03, 1e-7);
+}
+
+TEST(UncertaintyTable, OfAFrameBetweenTwoSegmentsThatAreTurnedHasTheDeviationsOfTheOneItIsTurnedLike) {
+  // Both know their rotation equally well in the world; the second is yawed by a quarter turn, so that its roll is the first one's pitch.
+  const Pose along, across(exp_rotation({0, 0, M_PI / 2}), {4, 0, 0});
+  Relations relations;
+  relations.absolute = {known(0, along, diagonal({1, 1, 1}, {2.5e-5, 1e-4, 2.25e-4})),
+                        known(1, across, diagonal({1, 1, 1}, {1e-4, 2.5e-5, 2.25e-4}))};
+  Trajectory trajectory = along_x(6);  // middle frames 1 and 4; 2 is turned like the first segment, 3 like the second
+  for (std::size_t k = 3; k < 6; ++k) trajectory.T_world_frame[k].rotation = across.rotation;
+  const auto rows = rows_of(uncertainty_table(trajectory, of_frames(uncertainty_of(relations, 2), ranges_of({3, 3}), 6)));
+  ASSERT_EQ(rows.size(), 6u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(rows[k][10], k < 3 ? 0.01 : 0.02, 1e-6) << "roll of frame " << k;
+    EXPECT_NEAR(rows[k][11], k < 3 ? 0.02 : 0.01, 1e-6) << "pitch of frame " << k;
+    EXPECT_NEAR(rows[k][12], 0.03, 1e-6);
+  }
 }
 
 TEST(UncertaintyTable, KeepsLargeStampsAndUtmCoordinates) {
