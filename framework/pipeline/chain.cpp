@@ -104,7 +104,7 @@ const Node* also_for(const Chain::Link& link, const std::vector<fs::path>& done)
 
 /// Lays over what of a preset's chain is not there yet.
 void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
-           std::vector<std::string>& files, Diagnostics& diagnostics) {
+           std::vector<fs::path>& done_also, std::vector<std::string>& files, Diagnostics& diagnostics) {
   const Chain chain = read_chain(preset, files.front(), diagnostics);
   if (chain.links.empty()) return;
   const Origin origin{chain.links.back().file, 1, 1};
@@ -118,9 +118,11 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
     bool any = false;
     for (const auto& link : chain.links)
       if (const Node* edits = also_for(link, done)) {
+        any = true;
+        if (applied(done_also, link.canonical)) continue;
+        done_also.push_back(link.canonical);
         apply_also(pipeline, *edits, diagnostics);
         files.push_back(link.file);
-        any = true;
       }
     if (any) return;
     diagnostics.add(chain.links[1].tree.at("extends")->origin,
@@ -159,7 +161,8 @@ std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay,
     done.push_back(link.canonical);
     files.push_back(link.file);
   }
-  for (const fs::path& preset : overlay.presets) stack(preset, pipeline, done, files, diagnostics);
+  std::vector<fs::path> done_also;
+  for (const fs::path& preset : overlay.presets) stack(preset, pipeline, done, done_also, files, diagnostics);
   std::vector<std::string> seen;
   for (const std::string& option : overlay.sets) {
     const std::string key = option.substr(0, option.find('='));

@@ -33,6 +33,10 @@ class Checker {
     std::ranges::sort(sorted);
     const double usual = sorted.empty() ? 0 : sorted[sorted.size() * 3 / 4];
     for (std::size_t k = 1; k < path.size(); ++k) path[k] = path[k - 1] + std::max(steps[k], usual);
+    std::vector<double> times;
+    for (std::size_t k = 1; k < odometry.size(); ++k) times.push_back(odometry.stamps[k] - odometry.stamps[k - 1]);
+    std::ranges::sort(times);
+    if (!times.empty()) usual_time_ = times[times.size() / 2];
     for (std::uint32_t a = 0, b = 1; b < odometry.size(); ++b)
       if (path[b] - path[a] >= options.length || b - a >= options.max_frames || b + 1 == odometry.size()) {
         pairs_.push_back({a, b, odometry.T_world_frame[a].inverse() * odometry.T_world_frame[b], {}, {}});
@@ -71,7 +75,7 @@ class Checker {
     const double given = target.misfit(source, pair.odometry);
     double good = 0.25 * options_.scans.max_distance;
     const bool rivalled = std::ranges::any_of(rivals, [&](const Pose& rival) { return differs(rival, pair.odometry, 0.5) && target.misfit(source, rival) < given; });
-    if (!rivalled && given <= good) return std::nullopt;
+    if ((!rivalled && given <= good) || gap(pair)) return std::nullopt;
     good = std::max(good, 1.3 * best_neighbour_misfit(n));
     // Align from where each hypothesis begins: one that fits no better than the rest may still begin near enough.
     const Pose own = target.aligned(source, pair.odometry);
@@ -106,22 +110,32 @@ class Checker {
     Pose velocity = last.followed.size() > 1 ? last.followed[last.followed.size() - 2].inverse() * last.followed.back()
                                              : scaled(*last.better, 1.0 / (last.b - last.a));
     std::vector<Pose> followed;
+    bool lost = false;
     Pose T_a_k;
     for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
       ScanTarget target(open_(k - 1)->cloud, options_.scans);
       const auto source = asked_points(open_(k)->cloud, options_.scans);
       const Pose given = odometry_.T_world_frame[k - 1].inverse() * odometry_.T_world_frame[k];
       const Pose from_given = target.aligned(source, given), from_last = target.aligned(source, velocity);
-      velocity = target.misfit(source, from_last) < target.misfit(source, from_given) ? from_last : from_given;
+      const double misfit_given = target.misfit(source, from_given), misfit_last = target.misfit(source, from_last);
+      velocity = misfit_last < misfit_given ? from_last : from_given;
+      // Where nothing fits, the scans know no better than the odometry.
+      lost = lost || std::min(misfit_given, misfit_last) > std::max(0.25 * options_.scans.max_distance, 0.8 * target.misfit(source, given));
       T_a_k = T_a_k * velocity;
       followed.push_back(T_a_k);
     }
-    if (!differs(T_a_k, pair.odometry, 1)) {
+    if (lost || !differs(T_a_k, pair.odometry, 1)) {
       pair.better.reset();
       return;
     }
     pair.better = T_a_k;
     pair.followed = std::move(followed);
+  }
+
+  /// Frames are missing between the two: they lie far apart with right, and share too little to tell.
+  bool gap(const Pair& pair) const {
+    const double time = odometry_.stamps[pair.b] - odometry_.stamps[pair.a];
+    return time > 2.5 * usual_time_ * (pair.b - pair.a);
   }
 
   bool differs(const Pose& x, const Pose& y, double factor) const {
@@ -168,6 +182,7 @@ class Checker {
   const std::function<std::shared_ptr<const Frame>(std::size_t)>& open_;
   const DivergenceOptions& options_;
   std::vector<Pair> pairs_;
+  double usual_time_ = 0;  ///< [s] between two frames, the median
 };
 
 }  // namespace

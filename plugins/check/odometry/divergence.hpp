@@ -16,7 +16,7 @@ struct DivergenceOptions {
   ScanOptions scans;
   double length = 3;               ///< [m] path by the odometry between two scans that are compared, at least (a frame counts for no less than most do) ...
   std::uint32_t max_frames = 5;    ///< ... or so many frames
-  double max_misfit_ratio = 0.6;   ///< another motion must fit so much better
+  double max_misfit_ratio = 0.5;   ///< another motion must fit so much better
   double min_translation = 0.7;    ///< [m] by which it must differ, or ...
   double min_rotation = 0.17;      ///< [rad]
   double single_factor = 4;        ///< a single pair counts only where it differs by so much more: several in a row do not err by chance

@@ -29,7 +29,7 @@ struct CheckOdometry : WholeStep {
     std::uint32_t max_points = 500;
     double length = 3;
     std::uint32_t max_frames = 5;
-    double max_misfit_ratio = 0.6;
+    double max_misfit_ratio = 0.5;
     double min_translation = 0.7;
     double single_factor = 4;
     double min_rotation = 10 * std::numbers::pi / 180;
