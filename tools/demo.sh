@@ -14,8 +14,8 @@ echo "1. A sequence: 200 scans of 32 x 1024 rays round a block of streets, and a
 "$plumb" simulate city_loop --frames 200 --length 400m --lines 32 --drift 8 -o "$folder/street"
 
 echo
-echo "2. The cascade of Tang et al. 2024"
-"$plumb" run "$root/pipelines/tang2024.yaml" --preset "$root/pipelines/presets/car_64line.yaml" \
+echo "2. The recommended pipeline"
+"$plumb" run "$root/pipelines/plumb.yaml" \
   --set input="$folder/street" --set truth="$folder/street/truth.tum" --store none -o "$folder/straight"
 
 echo
@@ -25,4 +25,4 @@ echo "3. Against the truth"
 echo
 echo "The drifted sequence is in $folder/street, the straight one in $folder/straight:"
 echo "  trajectory.tum  every frame's pose     map.ply  the cloud (CloudCompare, MeshLab, PCL open it)"
-echo "  metrics.json    what became of each edge     graph.g2o  the pose graph"
+echo "  metrics.json    what became of each edge     uncertainty.csv  how well each position is known"

@@ -2,6 +2,7 @@
 /// on the street.
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "simulate/random.hpp"
@@ -16,8 +17,8 @@ using Eigen::Vector3f;
 
 class Builder {
  public:
-  Builder(const Street& street, const Ground& ground, float half_width, std::uint64_t seed)
-      : street_(street), ground_(ground), half_width_(half_width), random_(mix(seed)) {}
+  Builder(const Street& street, const Ground& ground, float half_width, std::size_t repeat, std::uint64_t seed)
+      : street_(street), ground_(ground), half_width_(half_width), repeat_(repeat), random_(mix(seed)) {}
 
   void build() {
     for (const float side : {1.0f, -1.0f}) front_row(side);
@@ -56,13 +57,25 @@ class Builder {
   template <class Visit>
   void march(Visit visit) {
     const auto& nodes = street_.nodes();
+    const std::uint64_t call = ++marches_;
+    std::size_t block = std::numeric_limits<std::size_t>::max();
     for (double s = 0; s < static_cast<double>(nodes.size());) {
-      const auto k = static_cast<std::size_t>(s);
+      auto k = static_cast<std::size_t>(s);
+      if (repeat_ > 0 && k / repeat_ != block) {  // a block begins like the one before
+        block = k / repeat_;
+        s = static_cast<double>(k = block * repeat_);
+        random_ = Random(mix(random_seed_, call));
+      }
+      if (repeat_ > 0 && repeat_ - k % repeat_ <= block_gap) {  // nothing reaches over into the next
+        s = static_cast<double>((block + 1) * repeat_);
+        continue;
+      }
       s += nodes[k].repeated ? 1.0 : std::max(0.5, static_cast<double>(visit(k)));
     }
   }
   /// The street's character, the same over some 60 m: 0 to 1.
   double character(std::size_t k, float side, std::uint64_t of) {
+    if (repeat_ > 0) k %= repeat_;
     return static_cast<double>(unit(mix(of, k / 60, side > 0 ? 1 : 2) ^ random_seed_));
   }
 
@@ -95,7 +108,11 @@ class Builder {
 
   const Street& street_;
   const Ground& ground_;
+  static constexpr std::size_t block_gap = 24;  ///< [m] as wide as the widest house
+
   float half_width_;
+  std::size_t repeat_;  ///< nodes (metres) after which streets look the same again; 0: never
+  std::uint64_t marches_ = 0;
   Random random_;
   std::uint64_t random_seed_ = random_.next();
   Plots plots_;
@@ -280,7 +297,7 @@ void Builder::small_things(float side) {
 }  // namespace
 
 World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
-                 double street_width, std::uint64_t seed) {
+                 double street_width, double alike, std::uint64_t seed) {
   const Eigen::Vector3d origin = path.front();
   std::vector<Vector3f> local;
   local.reserve(path.size());
@@ -292,8 +309,8 @@ World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
   for (const auto& node : street.nodes()) lane.emplace_back(node.at.x(), node.at.y(), node.z);
 
   const auto half_width = static_cast<float>(0.5 * street_width);
-  Ground ground = ground_under(lane, half_width - 2, 70, seed);
-  Builder builder(street, ground, half_width, seed);
+  Ground ground = ground_under(lane, half_width - 2, 70, seed, alike > 0 ? 0.0f : 1.0f);
+  Builder builder(street, ground, half_width, static_cast<std::size_t>(alike), seed);
   builder.build();
   return {origin, std::move(ground), std::move(builder.primitives), std::move(builder.facades)};
 }

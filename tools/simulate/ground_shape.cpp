@@ -70,7 +70,7 @@ float ramp(float v, float low, float high) {
 }  // namespace
 
 Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float margin,
-                    std::uint64_t seed) {
+                    std::uint64_t seed, float unevenness) {
   Box box;
   for (const auto& p : path) box.add(p);
   const Eigen::Vector2f low = box.low.head<2>().array() - margin;
@@ -111,8 +111,8 @@ Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float 
       const float d = distance[size.at(i, j)];
       const float x = cell * static_cast<float>(i), y = cell * static_cast<float>(j);
       height[size.at(i, j)] += box.low.z() + 0.12f * ramp(d, kerb - 0.5f, kerb + 0.5f) +
-                               0.05f * ramp(d, kerb - 1, kerb + 3) * bumps(x, y, 4, seed) +
-                               0.25f * ramp(d, kerb + 1, kerb + 4) * bumps(x, y, 17, seed + 1);
+                               unevenness * 0.05f * ramp(d, kerb - 1, kerb + 3) * bumps(x, y, 4, seed) +
+                               unevenness * 0.25f * ramp(d, kerb + 1, kerb + 4) * bumps(x, y, 17, seed + 1);
     }
   return {low, cell, size.columns, size.rows, std::move(height)};
 }

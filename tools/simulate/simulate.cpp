@@ -39,7 +39,7 @@ World city_along(const Trajectory& truth, const Scene& scene) {
   std::vector<Eigen::Vector3d> positions;
   positions.reserve(truth.size());
   for (const Pose& pose : truth.T_world_frame) positions.push_back(pose.translation);
-  return build_city(positions, scene.height, scene.street_width,
+  return build_city(positions, scene.height, scene.street_width, scene.alike,
                     mix(static_cast<std::uint64_t>(scene.seed), 1));
 }
 

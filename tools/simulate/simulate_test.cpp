@@ -8,6 +8,7 @@
 
 #include "plumb/data/io/cloud_file.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/geometry/search_tree.hpp"
 #include "simulate/drift.hpp"
 #include "simulate/testing.hpp"
 
@@ -153,6 +154,37 @@ TEST(Simulate, FollowsAFileOfPosesFarFromZero) {
   EXPECT_NEAR(lowest, -1.73, 0.5);  // the land slopes
   scene.frames = 21;
   EXPECT_THAT(refusal([&] { set_up(scene); }), HasSubstr("has 20 poses and 21 frames are asked"));
+}
+
+/// Share of the rays of a scan at frame `a` that read the same, to 5 cm, at frame `b`.
+double share_alike(const Scene& scene, std::size_t a, std::size_t b) {
+  const Stage stage = set_up(scene);
+  const Cloud first = stage.frame(a), second = stage.frame(b);
+  const SearchTree tree(second);
+  std::size_t same = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    SearchTree::Neighbour nearest;
+    same += tree.nearest_within(first.point(k), 0.05f, nearest);
+  }
+  return static_cast<double>(same) / static_cast<double>(first.size());
+}
+
+TEST(Simulate, StreetsThatAreAlikeRepeatThemselves) {
+  // A straight way of 240 m, a pose a metre; frames 100 and 160 lie one block apart.
+  const TemporaryFolder folder("alike");
+  std::string poses;
+  for (int k = 0; k < 240; ++k) poses += std::to_string(0.1 * k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+  Scene scene;
+  write(folder.path() / "way.tum", poses);
+  scene.path = (folder.path() / "way.tum").string();
+  scene.lines = 16, scene.columns = 256, scene.range = 25, scene.noise = 0, scene.drift = 0;
+  const double different = share_alike(scene, 100, 160);
+  scene.alike = 20;
+  EXPECT_THAT(refusal([&] { set_up(scene); }), HasSubstr("blocks of less than 40 m"));
+  scene.alike = 60;
+  EXPECT_GT(share_alike(scene, 100, 160), 0.8);
+  EXPECT_LT(share_alike(scene, 100, 130), 0.6);
+  EXPECT_LT(different, 0.6);
 }
 
 TEST(Simulate, ReplacesItsOwnFolderAndNoOther) {

@@ -27,8 +27,8 @@ struct GraphOptions {
   int rounds = 30;                    ///< at most: weights refreshed, solved again
   int iterations = 100;               ///< of Levenberg-Marquardt in each round, at most
   bool uncertainty = false;           ///< whether the poses' covariances are computed
-  double uncertainty_per_metre = 5e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the first: clouds share a bias
-  double uncertainty_factor = 2;      ///< their deviations are multiplied by it: edges that share a segment share its errors
+  double uncertainty_per_metre = 4e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the first: clouds share a bias
+  double uncertainty_factor = 3;      ///< their deviations are multiplied by it: edges that share a segment share its errors
   double tolerance = 1e-4;            ///< [m] rounds end when no pose moves more, a rotation counting at 10 m
 
   /// Empty, or what does not go together.
