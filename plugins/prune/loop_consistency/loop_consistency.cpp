@@ -14,7 +14,7 @@ struct Comparison {
 };
 
 /// A comparison tells something where it is no coarser than so many times what two loops alone allow.
-constexpr double informative = 6;
+constexpr double informative = 8;
 
 class Judge {
  public:

@@ -33,7 +33,7 @@ TEST(Refined, FindsTheMotionFromAMetreAndThreeDegreesAway) {
     const Pose error = T_j_i * found.T_i_j;
     EXPECT_LT(error.translation.norm(), 0.02) << seed;
     EXPECT_LT(angle(error), 0.1 * degree) << seed;
-    EXPECT_GT(found.overlap, 0.9f) << seed;
+    EXPECT_GT(found.overlap, 0.8f) << seed;
     EXPECT_LT(found.mae, 0.05f) << seed;
     EXPECT_GT(found.pairs, 1500u) << seed;
   }
@@ -57,7 +57,7 @@ TEST(Refined, CountsTheOverlapInTheCommonBoxOnly) {
   for (std::uint32_t k = 0; k < world_j.size(); ++k)
     if (world_j.x[k] > -10) east.push_back(k);
   const Segment i = segment_of(select(world_i, west)), j = segment_of(select(world_j, east));
-  EXPECT_GT(refined(i, j, Pose(), {}).overlap, 0.9f);
+  EXPECT_GT(refined(i, j, Pose(), {}).overlap, 0.8f);
 }
 
 TEST(Refined, SeesThatLittleOfAnotherPlaceLiesOnASurface) {

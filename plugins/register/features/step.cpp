@@ -17,7 +17,7 @@ struct RegisterFeatures : EdgeStep {
   struct Params {
     double tolerance = 0.6;
     std::uint32_t min_inliers = 12;
-    double min_overlap = 0.4;
+    double min_overlap = 0.25;
     double first_distance = 2;
     double max_distance = 0.5;
     std::uint32_t max_points = 2000;
