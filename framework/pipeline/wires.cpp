@@ -135,9 +135,8 @@ class Binder {
     for (std::size_t k = 0; k < inputs.size(); ++k)
       for (const Source& source : *sources)
         if (fits(kind(), inputs[k], source)) fitting.emplace_back(k, &source);
-    // What may be left out does not compete with what must be wired: `from: STEP` feeds the step's own input, not its scale.
-    if (const auto required = [&](const auto& fit) { return !inputs[fit.first].optional; }; std::ranges::any_of(fitting, required))
-      std::erase_if(fitting, [&](const auto& fit) { return !required(fit); });
+    // `from: STEP` feeds a step's own input, not the scale of its lengths (Declaration::scale), which is named where it is meant.
+    std::erase_if(fitting, [&](const auto& fit) { return inputs[fit.first].optional && inputs[fit.first].name == "scale"; });
     std::string gives;
     for (const Source& source : *sources) {
       gives += (gives.empty() ? "" : " and ") + kind_of(*source.type, source.grain);

@@ -142,12 +142,12 @@ TEST(VoxelGrid, GivesASegmentWithItsOwnCentroidAndBox) {
   segment.range.T_segment_frame = {Pose()};
   segment = segment.with(scattered(1000, 4), std::vector<std::uint16_t>(1000, 0));
   const Step& step = *plumb_module()->steps[0];
-  PortInput input;
-  input.wired = true;
-  input.one = any_value(segment);
+  PortInput inputs[2];
+  inputs[0].wired = true;
+  inputs[0].one = any_value(segment);
   PortOutput output;
   TestContext context;
-  step.run(step.parameters({{"leaf", 2.0}}).get(), {&input, 1}, {&output, 1}, context);
+  step.run(step.parameters({{"leaf", 2.0}}).get(), inputs, {&output, 1}, context);
   const auto result = output.one.as<Segment>();
   EXPECT_EQ(result->cloud.size(), 8u);
   EXPECT_EQ(result->frame.size(), 8u);

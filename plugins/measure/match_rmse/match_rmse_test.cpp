@@ -74,7 +74,7 @@ Metrics measured(bool fixed_pairs, const std::vector<std::string>& labels, const
   edges.segments = 2;
   edges.list = {{0, 1, EdgeKind::sequential, 1, 0}};
 
-  PortInput inputs[4];
+  PortInput inputs[5];
   for (auto& input : inputs) input.wired = true;
   inputs[0].one = any_value(edges);
   inputs[1].each = segments;

@@ -172,7 +172,7 @@ std::string document(std::size_t frames, const Eigen::Vector3d& start, const std
     trajectory.stamps.push_back(static_cast<double>(k));
     trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), Eigen::Vector3d(start + Eigen::Vector3d(5.0 * static_cast<double>(k), 0, 0))});
   }
-  PortInput inputs[2];
+  PortInput inputs[3];
   inputs[0].wired = inputs[1].wired = true;
   inputs[0].each = each;
   inputs[1].one = any_value(trajectory);
