@@ -197,7 +197,7 @@ class Declaration {
   /// beside those that the numbers were chosen for. So one pipeline serves a car in a street and a scanner carried through rooms.
   Declaration& scale(One<Metrics> In::*member) {
     scale_ = [member](const In& in) { return (in.*member).shared().get(); };
-    return add_input("scale", member, "how large the surroundings are beside those that the parameters are for; lengths are multiplied by it (estimate.scale)", true);
+    return add_input("scale", member, "how large the surroundings are beside those that the parameters are for; lengths are multiplied by it", true);
   }
 
   /// A parameter of type double, int, std::uint32_t, std::int64_t, bool, std::string, std::filesystem::path, or std::optional of
@@ -260,7 +260,7 @@ class Declaration {
     if (!scale) return 1;
     const auto& numbers = scale->numbers;
     if (numbers.empty() || !(numbers.front().value > 0 && numbers.front().value < std::numeric_limits<double>::infinity()))
-      throw Error("'scale' must have a positive number: wire the output of estimate.scale");
+      throw Error("'scale' must have a positive number: wire Metrics whose first number is the factor");
     return numbers.front().value;
   }
   Params scaled(Params params, double factor) const {
