@@ -72,6 +72,11 @@ std::vector<std::string> Verdict::notes() const {
   drop_left_out(parts);
   if (!left_out_.empty())
     notes.push_back("segments " + runs_of(left_out_) + " are named by no relation and keep their place after the one before");
+  if (prior_ && parts.size() > 1) {
+    std::string sentence = "the graph falls into " + std::to_string(parts.size()) + " parts that only the odometry joins (segments ";
+    for (std::size_t n = 0; n < std::min<std::size_t>(parts.size(), 6); ++n) sentence += (n ? "; " : "") + runs_of(parts[n]);
+    notes.push_back(sentence + (parts.size() > 6 ? "; and more)" : ")"));
+  }
   for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
     notes.push_back("segments " + runs_of(parts[n]) +
                     " are not joined to the rest by any edge that was kept");
