@@ -249,7 +249,7 @@ TEST(ConstrainOdometry, RefusesAScaleWithoutAPositiveNumber) {
   const auto said = [&](const Metrics& scale) {
     return refusal([&] { wired().with("scale", scale).run<Relations>("relations", context); });
   };
-  EXPECT_THAT(said({}), HasSubstr("estimate.scale"));
+  EXPECT_THAT(said({}), HasSubstr("'scale' must have a positive number"));
   for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THAT(said(Metrics().add("scale", value, "")), HasSubstr("'scale' must have a positive number")) << value;
   EXPECT_EQ(said(Metrics().add("scale", 0.3, "")), "");
