@@ -1,6 +1,8 @@
 #include "marginals.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
 
 #include "plumb/data/error.hpp"
 
@@ -68,7 +70,51 @@ class SelectedInverse {
   std::vector<double> inverse_, diagonal_;
 };
 
+/// J'J of one term, with the derivatives by (v, w) that stand in the first six columns of each block. `place` counts the free poses.
+void add_normal_equations(const ceres::Problem& problem, ceres::ResidualBlockId id, std::span<const PoseBlock> all, const std::vector<int>& place,
+                          std::vector<Eigen::Triplet<double>>& entries) {
+  const ceres::CostFunction* cost = problem.GetCostFunctionForResidualBlock(id);
+  std::vector<double*> poses;
+  problem.GetParameterBlocksForResidualBlock(id, &poses);
+  const int rows = cost->num_residuals();
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+  std::vector<Jacobian> jacobians(poses.size(), Jacobian(rows, 7));
+  std::vector<double*> to;
+  for (auto& jacobian : jacobians) to.push_back(jacobian.data());
+  Eigen::VectorXd residual(rows);
+  cost->Evaluate(poses.data(), residual.data(), to.data());
+  const auto vertex = [&](std::size_t n) { return place[static_cast<std::size_t>(reinterpret_cast<const PoseBlock*>(poses[n]) - all.data())]; };
+  for (std::size_t a = 0; a < poses.size(); ++a)
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+      const int row = vertex(a), column = vertex(b);
+      if (row < 0 || column < 0 || row < column) continue;
+      const Matrix6d block = jacobians[a].leftCols<6>().transpose() * jacobians[b].leftCols<6>();
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j)
+          if (row > column || i >= j) entries.emplace_back(6 * row + i, 6 * column + j, block(i, j));
+    }
+}
+
 }  // namespace
+
+std::vector<std::optional<Matrix6d>> marginal_covariances(const ceres::Problem& problem, std::span<const PoseBlock> poses) {
+  std::vector<int> place(poses.size(), -1);
+  int free = 0;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    if (!problem.IsParameterBlockConstant(poses[k].data())) place[k] = free++;
+  std::vector<std::optional<Matrix6d>> covariances(poses.size());
+  if (free == 0) return covariances;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<ceres::ResidualBlockId> ids;
+  problem.GetResidualBlocks(&ids);
+  for (const auto id : ids) add_normal_equations(problem, id, poses, place, entries);
+  Eigen::SparseMatrix<double> lower(6 * free, 6 * free);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  const auto blocks = diagonal_blocks_of_inverse(lower);
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    if (place[k] >= 0) covariances[k] = blocks[static_cast<std::size_t>(place[k])];
+  return covariances;
+}
 
 std::vector<Matrix6d> diagonal_blocks_of_inverse(const Eigen::SparseMatrix<double>& lower) {
   const SelectedInverse inverse(lower);

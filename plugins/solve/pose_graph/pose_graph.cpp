@@ -48,12 +48,14 @@ class Graph {
     for (int round = 0; round < rounds(); ++round) {
       ++rounds_used_;
       refresh(hardness(round));
+      if (round > 0) weigh_relations();
       const auto old = blocks_;
       iterate();
       if (round >= annealing_rounds() && moved_since(old) <= options_.tolerance) break;
     }
     place_parts();
     refresh(hardness(rounds()));
+    weigh_relations();
     return result(before);
   }
 
@@ -192,6 +194,14 @@ class Graph {
     }
   }
 
+  /// Variance component estimation: an edge's pairs share errors, so what an edge is worth beside the odometry shows in how far the edges disagree.
+  void weigh_relations() {
+    if (!options_.estimate_variance || edges_.empty()) return;
+    const double root = std::sqrt(variance_factor()) * options_.uncertainty_factor;
+    for (auto& term : terms_)
+      if (!term->robust) term->root_weight = root;
+  }
+
   /// The term's squared residual under the present poses, times its present weight.
   double squared(const RelationTerm& term) const {
     const double* poses[2] = {blocks_[term.relation.i].data(), blocks_[term.relation.j].data()};
@@ -255,7 +265,7 @@ class Graph {
     for (const double share : shares) sum += share;
     const double scale2 = options_.relation_scale * options_.relation_scale;
     for (auto& term : terms_) {
-      term->root_weight = 1;
+      if (term->robust) term->root_weight = 1;
       const double s = squared(*term);
       sum += term->robust ? scale2 * loss(options_.loss, s / scale2) : s;
     }
@@ -326,62 +336,27 @@ class Graph {
   }
 
   void add_uncertainty(GraphResult& result) const {
-    const std::uint32_t first = static_cast<std::uint32_t>(std::ranges::find_if(blocks_, [&](const PoseBlock& b) { return problem_->IsParameterBlockConstant(b.data()); }) - blocks_.begin());
-    std::vector<int> place(blocks_.size(), -1);
-    int free = 0;
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-      if (!problem_->IsParameterBlockConstant(blocks_[k].data())) place[k] = free++;
-    if (free == 0) return;
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<ceres::ResidualBlockId> ids;
-    problem_->GetResidualBlocks(&ids);
-    for (const auto id : ids) add_normal_equations(id, place, entries);
-    Eigen::SparseMatrix<double> lower(6 * free, 6 * free);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    std::vector<Matrix6d> covariances;
+    std::vector<std::optional<Matrix6d>> covariances;
     try {
-      covariances = diagonal_blocks_of_inverse(lower);
+      covariances = marginal_covariances(*problem_, blocks_);
     } catch (const Error& e) {
       result.warnings.push_back(e.what());
       return;
     }
+    const auto first = static_cast<std::uint32_t>(std::ranges::find_if(covariances, [](const auto& c) { return !c; }) - covariances.begin());
     const double factor = variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
     for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
-      if (place[k] < 0) continue;
+      if (!covariances[k]) continue;
       // From moves (v in the world, w in the pose's axes) to what a relation of g2o counts: [t; q.vec] in the pose's axes.
       Matrix6d change = Matrix6d::Zero();
       change.topLeftCorner<3, 3>() = pose(k).matrix().transpose();
       change.bottomRightCorner<3, 3>() = 0.5 * Eigen::Matrix3d::Identity();
-      Matrix6d covariance = factor * change * covariances[static_cast<std::size_t>(place[k])] * change.transpose();
+      Matrix6d covariance = factor * change * *covariances[k] * change.transpose();
       const double away = first < blocks_.size() ? (pose(k).translation - pose(first).translation).norm() : 0;
       covariance.diagonal().head<3>().array() += std::pow(options_.uncertainty_per_metre * away, 2);
       result.uncertainty.absolute.push_back({k, pose(k), covariance.ldlt().solve(Matrix6d::Identity())});
     }
     result.metrics.add("variance_factor", variance_factor(), "");
-  }
-
-  /// J'J of one term, with the derivatives by (v, w) that stand in the first six columns of each block.
-  void add_normal_equations(ceres::ResidualBlockId id, const std::vector<int>& place, std::vector<Eigen::Triplet<double>>& entries) const {
-    const ceres::CostFunction* cost = problem_->GetCostFunctionForResidualBlock(id);
-    std::vector<double*> poses;
-    problem_->GetParameterBlocksForResidualBlock(id, &poses);
-    const int rows = cost->num_residuals();
-    using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
-    std::vector<Jacobian> jacobians(poses.size(), Jacobian(rows, 7));
-    std::vector<double*> to;
-    for (auto& jacobian : jacobians) to.push_back(jacobian.data());
-    Eigen::VectorXd residual(rows);
-    cost->Evaluate(poses.data(), residual.data(), to.data());
-    const auto vertex = [&](std::size_t n) { return place[static_cast<std::size_t>(reinterpret_cast<const PoseBlock*>(poses[n]) - blocks_.data())]; };
-    for (std::size_t a = 0; a < poses.size(); ++a)
-      for (std::size_t b = 0; b < poses.size(); ++b) {
-        const int row = vertex(a), column = vertex(b);
-        if (row < 0 || column < 0 || row < column) continue;
-        const Matrix6d block = jacobians[a].leftCols<6>().transpose() * jacobians[b].leftCols<6>();
-        for (int i = 0; i < 6; ++i)
-          for (int j = 0; j < 6; ++j)
-            if (row > column || i >= j) entries.emplace_back(6 * row + i, 6 * column + j, block(i, j));
-      }
   }
 
   // ---- data -----------------------------------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ struct GraphOptions {
   double relation_scale = 3;          ///< standard deviations at which the loss lets go of a relation that is not sequential
   int rounds = 30;                    ///< at most: weights refreshed, solved again
   int iterations = 100;               ///< of Levenberg-Marquardt in each round, at most
+  bool estimate_variance = false;     ///< whether edges count, beside sequential relations, by how far they disagree with each other
   bool uncertainty = false;           ///< whether the poses' covariances are computed
   double uncertainty_per_metre = 4e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the first: clouds share a bias
   double uncertainty_factor = 3;      ///< their deviations are multiplied by it: edges that share a segment share its errors

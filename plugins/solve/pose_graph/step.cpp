@@ -63,6 +63,8 @@ struct SolvePoseGraph : WholeStep {
         .doc("the most times that weights are refreshed; with anneal_from two thirds of them shrink the scale");
     is.param("iterations", &Params::iterations).range(1, 10000)
         .doc("the most iterations of Levenberg-Marquardt in one round");
+    is.param("estimate_variance", &Params::estimate_variance)
+        .doc("edges count, beside sequential relations, by how far they disagree with each other instead of by 'scale' alone");
     is.param("uncertainty", &Params::uncertainty).doc("compute how well each pose is known; only in space");
     is.param("uncertainty_per_metre", &Params::uncertainty_per_metre).unit("%").range(0, 1)
         .doc("standard deviation of a position, of its distance from the first, on top: a bias that all registrations share shows in no disagreement");
