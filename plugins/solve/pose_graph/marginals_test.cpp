@@ -296,6 +296,31 @@ TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
   }
 }
 
+/// Beside relations that err ten times as much as the pairs, poses come out as near to the truth whatever 'scale' says of the pairs.
+TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
+  double right = 0, wrong = 0, estimated = 0;
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    const auto g = circle(20, 2, seed);
+    std::mt19937 random(seed);
+    Relations odometry;
+    for (std::uint32_t k = 0; k + 1 < g.truth.size(); ++k)
+      odometry.relative.push_back(relation(k, k + 1, g.truth.relative(k, k + 1) * Pose(exp_rotation(gauss3(random, 10 * sigma_r)), gauss3(random, 3 * sigma_t))));
+    for (auto& r : odometry.relative) r.information.topLeftCorner<3, 3>() /= 9, r.information.bottomRightCorner<3, 3>() /= 100;
+    const auto error = [&](double scale, bool estimate) {
+      auto options = uncertain();
+      options.scale = scale;
+      options.estimate_variance = estimate;
+      options.loss = Loss::huber;  // in rounds
+      return ate(solve_pose_graph(g.drifted, g.matched(), &odometry, options, in_order).poses, g.truth);
+    };
+    right += error(0.05, false);
+    wrong += error(5, false);
+    estimated += error(5, true);
+  }
+  EXPECT_GT(wrong, 3 * right) << "or nothing is shown";
+  EXPECT_LT(estimated, 1.3 * right);
+}
+
 TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {
   Chain chain = chain_of(6, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
   EXPECT_TRUE(solved(chain, GraphOptions()).uncertainty.absolute.empty());

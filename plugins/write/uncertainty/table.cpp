@@ -24,7 +24,9 @@ std::vector<PoseUncertainty> uncertainty_of(const Relations& relations, std::siz
 
 std::vector<PoseUncertainty> of_frames(const std::vector<PoseUncertainty>& segments, const std::vector<Range>& ranges, std::size_t frames) {
   std::vector<PoseUncertainty> of(frames);
-  const auto middle = [&](std::size_t s) { return ranges[s].first + ranges[s].size() / 2; };
+  // Where the first segment is held fixed the first frame is what all poses are relative to.
+  const bool from_first = segments.size() > 1 && segments[0].position.isZero(0) && segments[0].rotation.isZero(0);
+  const auto middle = [&](std::size_t s) -> std::size_t { return s == 0 && from_first ? 0 : ranges[s].first + ranges[s].size() / 2; };
   std::size_t s = 0;
   for (std::size_t f = 0; f < frames && !ranges.empty(); ++f) {
     while (s + 1 < ranges.size() && middle(s + 1) <= f) ++s;

@@ -105,15 +105,22 @@ TEST(UncertaintyOfSegments, RefusesASegmentThatDoesNotExist) {
   EXPECT_NO_THROW(uncertainty_of(relations, 4));
 }
 
-TEST(UncertaintyOfFrames, GrowsEvenlyFromOneMiddleFrameToTheNext) {
-  // Middle frames 2, 5 and 9.
+TEST(UncertaintyOfFrames, GrowsEvenlyFromTheFirstFrameThatAllIsRelativeTo) {
+  // Middle frames 2, 5 and 9; the first segment is held fixed.
   const auto frames = of_frames({of_size(0), of_size(3), of_size(7)}, ranges_of({4, 3, 5}), 12);
   std::vector<double> size;
   for (const auto& frame : frames) {
     size.push_back(frame.position(1, 1));
     EXPECT_NEAR(frame.rotation(2, 2), 2 * size.back(), 1e-12);
   }
-  EXPECT_THAT(size, testing::Pointwise(testing::DoubleNear(1e-12), std::vector<double>{0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 7, 7}));
+  EXPECT_THAT(size, testing::Pointwise(testing::DoubleNear(1e-12), std::vector<double>{0, 0.6, 1.2, 1.8, 2.4, 3, 4, 5, 6, 7, 7, 7}));
+}
+
+TEST(UncertaintyOfFrames, GrowsEvenlyFromOneMiddleFrameToTheNext) {
+  const auto frames = of_frames({of_size(1), of_size(4)}, ranges_of({4, 3}), 7);  // middle frames 2 and 5
+  std::vector<double> size;
+  for (const auto& frame : frames) size.push_back(frame.position(1, 1));
+  EXPECT_THAT(size, testing::Pointwise(testing::DoubleNear(1e-12), std::vector<double>{1, 1, 1, 2, 3, 4, 4}));
 }
 
 TEST(UncertaintyOfFrames, IsThatOfASegmentAlone) {
