@@ -198,7 +198,8 @@ TEST(WriteUncertainty, WritesALineAFrameUnderItsName) {
   EXPECT_EQ(document.name, "sigma.csv");
   const auto rows = rows_of(document.bytes.text());
   ASSERT_EQ(rows.size(), 9u);
-  EXPECT_NEAR(rows[1][4], 0, 1e-9);
+  EXPECT_EQ(rows[0][4], 0);
+  EXPECT_NEAR(rows[1][4], 0.01, 1e-6);  // a quarter of the way to the second middle
   EXPECT_NEAR(rows[4][4], 0.04, 1e-6);
   EXPECT_NEAR(rows[7][4], 0.2, 1e-6);
   EXPECT_NEAR(rows[4][10], 2e-3, 1e-6);
