@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -15,6 +16,21 @@ struct Pair {
   Pose odometry;               ///< T_a_b
   std::optional<Pose> better;  ///< what the scans say instead
   std::vector<Pose> followed;  ///< where it was followed frame by frame: T_a_k of the frames a + 1 .. b
+};
+
+/// The motion that fits best of those tried; of equals the first.
+struct Fit {
+  Pose motion;
+  double misfit = std::numeric_limits<double>::infinity();
+
+  void take(ScanTarget& target, const std::vector<Eigen::Vector3f>& source, const Pose& aligned) {
+    if (const double is = target.misfit(source, aligned); is < misfit) motion = aligned, misfit = is;
+  }
+  /// In a sharp turn a start is too far off in yaw: others beside it are tried.
+  void take_turned(ScanTarget& target, const std::vector<Eigen::Vector3f>& source, const Pose& start) {
+    for (const double yaw : {-0.15, 0.15, -0.3, 0.3})
+      take(target, source, target.aligned(source, start * Pose(exp_rotation({0, 0, yaw}), Eigen::Vector3d::Zero())));
+  }
 };
 
 Pose scaled(const Pose& motion, double factor) {
@@ -48,7 +64,10 @@ class Checker {
     context.parallel(pairs_.size(), [&](std::size_t n) { pairs_[n].better = judge(n, n > 0 ? &pairs_[n - 1].odometry : nullptr); });
     // Where a motion was found wrong, the scans are followed frame by frame until the odometry agrees with them again.
     for (std::size_t n = 1; n < pairs_.size(); ++n)
-      if (pairs_[n - 1].better) follow(n);
+      if (pairs_[n - 1].better) follow(n, last_motion(pairs_[n - 1]));
+    // It may have failed earlier, where it fitted as badly but no other motion was near enough, as in a sharp turn.
+    for (std::size_t n = pairs_.size(); n-- > 1;)
+      if (pairs_[n].better && !pairs_[n - 1].better && misfits(pairs_[n - 1])) follow(n - 1, first_motion(pairs_[n]));
     drop_single();
     CheckedOdometry result;
     result.compared = static_cast<std::uint32_t>(pairs_.size());
@@ -79,17 +98,14 @@ class Checker {
     good = std::max(good, 1.3 * best_neighbour_misfit(n));
     // Align from where each hypothesis begins: one that fits no better than the rest may still begin near enough.
     const Pose own = target.aligned(source, pair.odometry);
-    std::vector<Pose> others{own};
-    for (const Pose& rival : rivals) others.push_back(target.aligned(source, rival));
-    Pose other = pair.odometry;
-    double other_misfit = given;
-    for (const Pose& aligned : others)
-      if (const double misfit = target.misfit(source, aligned); misfit < other_misfit) other_misfit = misfit, other = aligned;
-    if (other_misfit > good || !differs(other, pair.odometry, 1)) return std::nullopt;
+    Fit best{pair.odometry, given};
+    best.take(target, source, own);
+    for (const Pose& rival : rivals) best.take(target, source, target.aligned(source, rival));
+    if (best.misfit > good || !differs(best.motion, pair.odometry, 1)) return std::nullopt;
     // Drift within the reach of ICP is not what is looked for: the odometry must fit much worse as it stands, and also where ICP takes it, unless that is the same place.
-    const double own_misfit = differs(own, other, 0.5) ? target.misfit(source, own) : given;
-    if (other_misfit > options_.max_misfit_ratio * std::min(given, own_misfit)) return std::nullopt;
-    return other;
+    const double own_misfit = differs(own, best.motion, 0.5) ? target.misfit(source, own) : given;
+    if (best.misfit > options_.max_misfit_ratio * std::min(given, own_misfit)) return std::nullopt;
+    return best.motion;
   }
 
   /// What the odometry's misfit is beside pair n, on the side where it is less: in a corner also right motions fit badly.
@@ -103,12 +119,20 @@ class Checker {
     return least;
   }
 
-  /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found, whichever ends better.
-  void follow(std::size_t n) {
+  static Pose last_motion(const Pair& pair) {
+    return pair.followed.size() > 1 ? pair.followed[pair.followed.size() - 2].inverse() * pair.followed.back() : scaled(*pair.better, 1.0 / (pair.b - pair.a));
+  }
+  static Pose first_motion(const Pair& pair) { return pair.followed.empty() ? scaled(*pair.better, 1.0 / (pair.b - pair.a)) : pair.followed.front(); }
+
+  /// Whether the odometry's motion does not fit.
+  bool misfits(const Pair& pair) const {
+    ScanTarget target(open_(pair.a)->cloud, options_.scans);
+    return !gap(pair) && target.misfit(asked_points(open_(pair.b)->cloud, options_.scans), pair.odometry) > 0.25 * options_.scans.max_distance;
+  }
+
+  /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found (`velocity` at first), whichever ends better.
+  void follow(std::size_t n, Pose velocity) {
     Pair& pair = pairs_[n];
-    const Pair& last = pairs_[n - 1];
-    Pose velocity = last.followed.size() > 1 ? last.followed[last.followed.size() - 2].inverse() * last.followed.back()
-                                             : scaled(*last.better, 1.0 / (last.b - last.a));
     std::vector<Pose> followed;
     bool lost = false;
     Pose T_a_k;
@@ -116,11 +140,14 @@ class Checker {
       ScanTarget target(open_(k - 1)->cloud, options_.scans);
       const auto source = asked_points(open_(k)->cloud, options_.scans);
       const Pose given = odometry_.T_world_frame[k - 1].inverse() * odometry_.T_world_frame[k];
-      const Pose from_given = target.aligned(source, given), from_last = target.aligned(source, velocity);
-      const double misfit_given = target.misfit(source, from_given), misfit_last = target.misfit(source, from_last);
-      velocity = misfit_last < misfit_given ? from_last : from_given;
+      Fit best;
+      for (const Pose& start : {given, velocity}) best.take(target, source, target.aligned(source, start));
+      const double fits = 0.25 * options_.scans.max_distance;
+      for (const Pose& start : {given, velocity})
+        if (best.misfit > fits) best.take_turned(target, source, start);
+      velocity = best.motion;
       // Where nothing fits, the scans know no better than the odometry.
-      lost = lost || std::min(misfit_given, misfit_last) > std::max(0.25 * options_.scans.max_distance, 0.8 * target.misfit(source, given));
+      lost = lost || best.misfit > std::max(fits, 0.8 * target.misfit(source, given));
       T_a_k = T_a_k * velocity;
       followed.push_back(T_a_k);
     }
