@@ -298,7 +298,7 @@ TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
 
 /// Beside relations that err ten times as much as the pairs, poses come out as near to the truth whatever 'scale' says of the pairs.
 TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
-  double right = 0, wrong = 0, estimated = 0;
+  double right = 0, wrong = 0, estimated = 0, without_loss = 0;
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     const auto g = circle(20, 2, seed);
     std::mt19937 random(seed);
@@ -306,19 +306,35 @@ TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
     for (std::uint32_t k = 0; k + 1 < g.truth.size(); ++k)
       odometry.relative.push_back(relation(k, k + 1, g.truth.relative(k, k + 1) * Pose(exp_rotation(gauss3(random, 10 * sigma_r)), gauss3(random, 3 * sigma_t))));
     for (auto& r : odometry.relative) r.information.topLeftCorner<3, 3>() /= 9, r.information.bottomRightCorner<3, 3>() /= 100;
-    const auto error = [&](double scale, bool estimate) {
+    const auto error = [&](double scale, bool estimate, Loss loss = Loss::huber) {
       auto options = uncertain();
       options.scale = scale;
       options.estimate_variance = estimate;
-      options.loss = Loss::huber;  // in rounds
+      options.loss = loss;
       return ate(solve_pose_graph(g.drifted, g.matched(), &odometry, options, in_order).poses, g.truth);
     };
     right += error(0.05, false);
     wrong += error(5, false);
     estimated += error(5, true);
+    without_loss += error(5, true, Loss::none);
   }
   EXPECT_GT(wrong, 3 * right) << "or nothing is shown";
   EXPECT_LT(estimated, 1.3 * right);
+  EXPECT_LT(without_loss, 1.3 * right);
+}
+
+TEST(Uncertainty, DoesNotCountARelationThatTheLossLetGo) {
+  Chain chain = noisy_circle(1, 3);
+  auto options = uncertain();
+  options.loss = Loss::geman_mcclure;
+  const auto without = solved(chain, options);
+  auto wrong = relation(3, 40, chain.poses.relative(3, 40) * Pose(Eigen::Quaterniond::Identity(), {30, 0, 0}));
+  wrong.information *= 100;
+  chain.relations.relative.push_back(wrong);
+  const auto with = solved(chain, options);
+  ASSERT_EQ(with.uncertainty.absolute.size(), without.uncertainty.absolute.size());
+  for (std::size_t k = 0; k < with.uncertainty.absolute.size(); ++k)
+    EXPECT_NEAR(with.uncertainty.absolute[k].information(0, 0) / without.uncertainty.absolute[k].information(0, 0), 1, 0.05) << k;
 }
 
 TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -164,7 +165,7 @@ class Graph {
   // ---- rounds ---------------------------------------------------------------------------------------------------------------
 
   bool reweighted() const {
-    return options_.loss != Loss::none || options_.edge_loss != Loss::none;
+    return options_.loss != Loss::none || options_.edge_loss != Loss::none || options_.estimate_variance;
   }
   int rounds() const { return reweighted() ? options_.rounds : 1; }
   /// Two thirds of the rounds shrink the scales; the rest have the final ones.
@@ -265,8 +266,9 @@ class Graph {
     for (const double share : shares) sum += share;
     const double scale2 = options_.relation_scale * options_.relation_scale;
     for (auto& term : terms_) {
-      if (term->robust) term->root_weight = 1;
+      const double kept = std::exchange(term->root_weight, 1.0);  // with the information as given
       const double s = squared(*term);
+      term->root_weight = kept;
       sum += term->robust ? scale2 * loss(options_.loss, s / scale2) : s;
     }
     for (const auto& single : absolute_terms()) sum += single;

@@ -59,6 +59,9 @@ using ParallelLoop = std::function<void(std::size_t n, const std::function<void(
 /// v and w being what T_k^-1 T_k+1 differs from what it is in `start`. Sequential relations (no pose between i and j is named by any relation) have no loss. It is solved in
 /// rounds: weights rho' from the present residuals, all pairs summed to one form per edge (pair_moments.hpp), Levenberg-Marquardt.
 ///
+/// `estimate_variance`: after each round sequential relations' information is multiplied by the edges' variance factor (below) times uncertainty_factor^2, as if the edges'
+/// pairs had the deviation that their disagreement shows instead of `scale`.
+///
 /// The first pose of each connected part stays as it is, unless an absolute constraint holds the part. A part that no edge joins
 /// to the rest keeps its place relative to the pose before its first one, and is warned of.
 /// `uncertainty`: H^-1 of the last round's normal equations, marginal for each pose relative to the fixed first one, times a variance factor: the cost that the
