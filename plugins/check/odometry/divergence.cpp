@@ -64,10 +64,10 @@ class Checker {
     context.parallel(pairs_.size(), [&](std::size_t n) { pairs_[n].better = judge(n, n > 0 ? &pairs_[n - 1].odometry : nullptr); });
     // Where a motion was found wrong, the scans are followed frame by frame until the odometry agrees with them again.
     for (std::size_t n = 1; n < pairs_.size(); ++n)
-      if (pairs_[n - 1].better) follow(n, last_motion(pairs_[n - 1]));
+      if (pairs_[n - 1].better) follow(n, last_motion(pairs_[n - 1]), false);
     // It may have failed earlier, where it fitted as badly but no other motion was near enough, as in a sharp turn.
     for (std::size_t n = pairs_.size(); n-- > 1;)
-      if (pairs_[n].better && !pairs_[n - 1].better && misfits(pairs_[n - 1])) follow(n - 1, first_motion(pairs_[n]));
+      if (pairs_[n].better && !pairs_[n - 1].better && misfits(pairs_[n - 1])) follow(n - 1, first_motion(pairs_[n]), true);
     drop_single();
     CheckedOdometry result;
     result.compared = static_cast<std::uint32_t>(pairs_.size());
@@ -130,8 +130,9 @@ class Checker {
     return !gap(pair) && target.misfit(asked_points(open_(pair.b)->cloud, options_.scans), pair.odometry) > 0.25 * options_.scans.max_distance;
   }
 
-  /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found (`velocity` at first), whichever ends better.
-  void follow(std::size_t n, Pose velocity) {
+  /// Registers each frame of pair n to the one before, from the odometry's motion and from the last motion found (`velocity` at first), whichever ends better. `back`: before
+  /// what was found wrong, where only a good fit counts.
+  void follow(std::size_t n, Pose velocity, bool back) {
     Pair& pair = pairs_[n];
     std::vector<Pose> followed;
     bool lost = false;
@@ -143,11 +144,13 @@ class Checker {
       Fit best;
       for (const Pose& start : {given, velocity}) best.take(target, source, target.aligned(source, start));
       const double fits = 0.25 * options_.scans.max_distance;
+      Fit turned = best;
       for (const Pose& start : {given, velocity})
-        if (best.misfit > fits) best.take_turned(target, source, start);
+        if (turned.misfit > fits) turned.take_turned(target, source, start);
+      if (turned.misfit <= fits) best = turned;
       velocity = best.motion;
       // Where nothing fits, the scans know no better than the odometry.
-      lost = lost || best.misfit > std::max(fits, 0.8 * target.misfit(source, given));
+      lost = lost || best.misfit > (back ? fits : std::max(fits, 0.8 * target.misfit(source, given)));
       T_a_k = T_a_k * velocity;
       followed.push_back(T_a_k);
     }
