@@ -190,12 +190,10 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
   try {
     if (fold) run_fold(outputs, context);
     else step_.run(params_.get(), inputs, outputs, context);
-  } catch (const std::bad_alloc&) {
-    throw NestedError(title(k) + ": memory is used up; give smaller segments or a larger voxel");
   } catch (const NestedError&) {
     throw;
   } catch (const std::exception& e) {
-    throw NestedError(title(k) + ": " + e.what());
+    throw NestedError(title(k) + ": " + sentence_of(e));
   } catch (...) {
     throw NestedError(title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
   }

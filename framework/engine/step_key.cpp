@@ -1,5 +1,7 @@
 #include "plumb/engine/step_key.hpp"
 
+#include <new>
+
 #include "plumb/data/archive.hpp"
 #include "plumb/data/io/file_identity.hpp"
 
@@ -43,6 +45,10 @@ Hash128 joined_key(const Hash128& a, const Hash128& b) {
   hasher.bytes(&a, sizeof a);
   hasher.bytes(&b, sizeof b);
   return hasher.hash();
+}
+
+std::string sentence_of(const std::exception& thrown) {
+  return dynamic_cast<const std::bad_alloc*>(&thrown) ? "memory is used up; give smaller segments or a larger voxel, or more memory" : thrown.what();
 }
 
 }  // namespace plumb

@@ -18,4 +18,7 @@ class NestedError : public Error {
   using Error::Error;
 };
 
+/// What a step threw, as a sentence for whoever runs the pipeline.
+std::string sentence_of(const std::exception& thrown);
+
 }  // namespace plumb

@@ -154,7 +154,7 @@ AnyValue StepRun::value(int output, std::size_t k) {
     if (first && state_.passed) state_.passed(*this, output, k, said);
     return value;
   } catch (const std::exception& e) {
-    throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + "): " + e.what());
+    throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + "): " + sentence_of(e));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "plumb/data/io/fence.hpp"
 #include "plumb/pipeline/foreign_file.hpp"
 #include "plumb/pipeline/overlay.hpp"
 
@@ -19,6 +20,9 @@ std::optional<std::string> text_of(const fs::path& file, const fs::path& pipelin
     diagnostics.add(asked, fault.sentence, fault.hint);
     return std::nullopt;
   };
+  if (!io::inside_of_fence(file))
+    return refuse({"'" + file.string() + "' lies outside of the folders of the pipeline and presets that were given, and --untrusted reads nothing else.",
+                   "Name the pipeline itself and lay the preset over it (--preset), or leave --untrusted out."});
   if (fs::is_directory(file, error)) return refuse(foreign_folder(file));
   if (!fs::exists(file, error))
     return refuse({"there is no file '" + file.string() + "'.", cure_for_missing(file, pipeline)});

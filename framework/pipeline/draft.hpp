@@ -135,6 +135,7 @@ void find_order(Draft& draft);       ///< or the cycle
 void find_domains(Draft& draft);     ///< which items a step has
 void find_unused(Draft& draft);
 void find_missing_files(Draft& draft);  ///< paths that lead nowhere
+void find_foreign_paths(Draft& draft);  ///< the same, and paths that the command line did not give: they are not looked at
 std::string resolved_text(const Draft& draft);
 
 }  // namespace plumb::pipeline

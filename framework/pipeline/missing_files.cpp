@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "plumb/data/io/fence.hpp"
 #include "plumb/pipeline/draft.hpp"
 
 namespace plumb::pipeline {
@@ -29,24 +30,33 @@ std::string cure(const fs::path& path) {
   return missing == path ? "" : "There is no folder '" + missing.string() + "' either.";
 }
 
+/// Calls `look(step, type, value, origin)` for each value of a path parameter.
+template <class Look>
+void for_each_path(const Plan& plan, const Look& look) {
+  for (std::size_t k = 0; k < plan.steps.size(); ++k) {
+    const PlannedStep& step = plan.steps[k];
+    for (std::size_t p = 0; p < step.parameters.size(); ++p) {
+      const ParameterDescription& type = step.description->parameters[p];
+      const PlannedParameter& parameter = step.parameters[p];
+      if (type.kind != ParameterKind::path) continue;
+      if (parameter.row < 0)
+        look(static_cast<int>(k), type, parameter.value, parameter.origin);
+      else
+        for (const auto& value : plan.repeats[parameter.repeat].rows[parameter.row].values) look(static_cast<int>(k), type, value, parameter.origin);
+    }
+  }
+}
+
+bool from_command_line(const Origin& origin) { return origin.file.starts_with("--set "); }
+
 class MissingFiles {
  public:
-  explicit MissingFiles(Draft& draft) : draft_(draft) {}
+  MissingFiles(Draft& draft, bool untrusted) : draft_(draft), untrusted_(untrusted) {
+    if (untrusted) given_ = given_paths(draft.plan);
+  }
 
   void find() {
-    for (std::size_t k = 0; k < draft_.plan.steps.size(); ++k) {
-      const PlannedStep& step = draft_.plan.steps[k];
-      for (std::size_t p = 0; p < step.parameters.size(); ++p) {
-        const ParameterDescription& type = step.description->parameters[p];
-        const PlannedParameter& parameter = step.parameters[p];
-        if (type.kind != ParameterKind::path) continue;
-        if (parameter.row < 0)
-          look(static_cast<int>(k), type, parameter.value, parameter.origin);
-        else
-          for (const auto& value : draft_.plan.repeats[parameter.repeat].rows[parameter.row].values)
-            look(static_cast<int>(k), type, value, parameter.origin);
-      }
-    }
+    for_each_path(draft_.plan, [this](int step, const ParameterDescription& type, const ParameterValue& value, const Origin& origin) { look(step, type, value, origin); });
   }
 
  private:
@@ -55,8 +65,15 @@ class MissingFiles {
             const Origin& origin) {
     const auto* path = std::get_if<std::string>(&value);
     std::error_code error;
-    if (!path || path->empty() || origin.file.empty() || fs::exists(*path, error)) return;
+    if (!path || path->empty() || origin.file.empty()) return;
+    const bool foreign = untrusted_ && !from_command_line(origin) && !io::inside(*path, given_);
+    if (!foreign && fs::exists(*path, error)) return;
     if (!told_.insert(origin.text() + "\n" + *path).second) return;
+    if (foreign) {
+      draft_.fault(origin, draft_.title(step) + ": parameter '" + type.name + "': '" + *path + "' lies outside of what the command line gives this pipeline to read.",
+                   "Give the path on the command line, as in --set input=DIR; or leave --untrusted out if you trust the pipeline.");
+      return;
+    }
     std::string hint = cure(*path);
     const auto add = [&](const std::string& more) { hint += (hint.empty() ? "" : "  ") + more + "."; };
     if (!type.doc.empty()) add("Expected: " + type.doc);
@@ -68,11 +85,27 @@ class MissingFiles {
   }
 
   Draft& draft_;
+  bool untrusted_;
+  std::vector<fs::path> given_;
   std::set<std::string> told_;  // origin and path
 };
 
 }  // namespace
 
-void find_missing_files(Draft& draft) { MissingFiles(draft).find(); }
+void find_missing_files(Draft& draft) { MissingFiles(draft, false).find(); }
+void find_foreign_paths(Draft& draft) { MissingFiles(draft, true).find(); }
 
 }  // namespace plumb::pipeline
+
+namespace plumb {
+
+std::vector<std::filesystem::path> given_paths(const Plan& plan) {
+  std::vector<std::filesystem::path> given;
+  pipeline::for_each_path(plan, [&](int, const ParameterDescription&, const ParameterValue& value, const Origin& origin) {
+    const auto* path = std::get_if<std::string>(&value);
+    if (path && !path->empty() && pipeline::from_command_line(origin)) given.emplace_back(*path);
+  });
+  return given;
+}
+
+}  // namespace plumb

@@ -18,7 +18,8 @@ Plan plan_of(Node tree, std::vector<std::string> files, const Overlay& overlay, 
   read_wires(draft);
   read_conditions(draft);
   find_unused(draft);
-  if (overlay.needs_files) find_missing_files(draft);
+  if (overlay.untrusted) find_foreign_paths(draft);
+  else if (overlay.needs_files) find_missing_files(draft);
   find_order(draft);
   find_domains(draft);
   diagnostics.raise();

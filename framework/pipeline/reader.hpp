@@ -21,12 +21,16 @@ struct Overlay {
   bool open = false;  ///< parameters without a value are no mistake (graph, resolve): steps see an
                       ///< empty value
   bool needs_files = false;  ///< a path that leads nowhere is a mistake (check, run)
+  bool untrusted = false;    ///< a path that a file names is a mistake unless it lies in one that `sets` name
 };
 
 /// Reads and checks a pipeline, or a preset that extends one. Throws PipelineError with every
 /// mistake that it finds.
 Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
                    const Registry& registry);
+
+/// The values of path parameters that come from the command line: what a stranger's pipeline may read.
+std::vector<std::filesystem::path> given_paths(const Plan& plan);
 
 /// The same of a text that stands for itself: a plan's `resolved`. `name` is what places are said to be in. Paths must be absolute, and lead somewhere.
 Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry);

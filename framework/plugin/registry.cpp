@@ -35,8 +35,10 @@ fs::path folder_of_this_library() {
 
 }  // namespace
 
+std::vector<fs::path> Registry::shipped_folders() { return {folder_of_this_library() / "plumb"}; }
+
 std::vector<fs::path> Registry::standard_folders(const std::vector<fs::path>& extra) {
-  std::vector<fs::path> folders = {folder_of_this_library() / "plumb"};
+  std::vector<fs::path> folders = shipped_folders();
   folders.insert(folders.end(), extra.begin(), extra.end());
   if (const char* variable = std::getenv("PLUMB_PLUGIN_PATH")) {
     std::istringstream list(variable);

@@ -23,7 +23,9 @@ class Registry {
  public:
   /// Reads all manifests (*.json beside the modules) of `folders`.
   static Registry scan(const std::vector<std::filesystem::path>& folders);
-  /// The standard folders: beside libplumb, then `extra`, then the environment's.
+  /// Where the modules are that Plumb came with: beside libplumb.
+  static std::vector<std::filesystem::path> shipped_folders();
+  /// The standard folders: the shipped ones, then `extra`, then the environment's.
   static std::vector<std::filesystem::path> standard_folders(const std::vector<std::filesystem::path>& extra);
   /// Takes steps that live in this process (tests).
   void add(const Step& step);

@@ -6,6 +6,7 @@
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/graph.hpp"
 #include "plumb/pipeline/table.hpp"
+#include "untrusted.hpp"
 
 namespace plumb::command {
 
@@ -15,9 +16,13 @@ void add_check(CLI::App& app) {
   options->add_to(*command);
   options->overlay.needs_files = true;
   command->footer("Prints every mistake with file:line:column, files that are not there too; or the passes of each loop. Exit 1 when there is a mistake.");
-  command->callback([options] {
-    const Registry steps = installed_steps();
+  auto untrusted = std::make_shared<Untrusted>();
+  untrusted->add_to(*command);
+  command->callback([options, untrusted] {
+    untrusted->before_reading(*options);
+    const Registry steps = untrusted->steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    untrusted->before_running(plan, steps, {});
     preflight(plan, steps);
     std::cout << passes_table(plan);
     std::cout << options->file.string() << ": good, " << plan.steps.size() << " steps\n";

@@ -17,6 +17,7 @@
 #include "side_file.hpp"
 #include "store_option.hpp"
 #include "summary.hpp"
+#include "untrusted.hpp"
 
 namespace plumb::command {
 namespace {
@@ -26,6 +27,7 @@ struct Options {
   std::filesystem::path output, locked, log, events, trace;
   StoreOption store;
   ExecutorOptions executor;
+  Untrusted untrusted;
   std::string memory;
   unsigned threads = 0;
   bool quiet = false, times = true, fresh = false, verify_inputs = false, explain = false;
@@ -106,11 +108,13 @@ void require_store(const Options& options, const Store* store) {
   if (needs) throw Error(std::string("a store is needed for ") + needs + ", but there is none; give --store DIR");
 }
 
-void run(const Options& options) {
+void run(Options& options) {
+  options.untrusted.before_reading(options.pipeline);
   if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
   const std::uint64_t memory = memory_of_text(options.memory);
-  const Registry steps = installed_steps();
+  const Registry steps = options.untrusted.steps();
   auto [plan, record] = options.locked.empty() ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}} : locked(options, steps);
+  options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   preflight(plan, steps);
   const std::vector<SideFile> side_files = {{"--log", options.log, "log", log_mark},
                                             {"--events", options.events, "events", EventLines::mark},
@@ -160,6 +164,7 @@ void add_run(CLI::App& app) {
   command->add_flag("--explain", options->explain, "Say of each step whether its results were reused, and the first thing that differs from the last run");
   command->add_option("--memory", options->memory, "Bound of resident memory, such as 2GiB: what does not fit waits in the store");
   options->executor.add_to(*command);
+  options->untrusted.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");
   command->add_flag("--times,!--no-times", options->times, "Show the time and memory that each step took (unless --no-times or --quiet)");
   command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
@@ -171,6 +176,7 @@ void add_run(CLI::App& app) {
       ->excludes(pipeline)
       ->excludes("--preset")
       ->excludes("--set");
+  command->get_option("--untrusted")->excludes("--locked")->excludes("--isolate")->excludes("--executor")->excludes("--executor-profile");
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
       "The results are the same for any number of threads. No results are left behind when a run fails or is interrupted.");

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/data/io/file_text.hpp"
 
@@ -15,6 +16,7 @@ namespace fs = std::filesystem;
 
 std::vector<FrameFile> files_in(const fs::path& folder, const std::vector<std::string>& extensions,
                                 const std::string& prefix) {
+  require_inside_of_fence(folder);
   std::error_code error;
   std::vector<FrameFile> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -41,6 +43,7 @@ std::vector<FrameFile> listed_in(const fs::path& list, const fs::path& folder) {
     while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
     if (line.empty() || line.front() == '#') continue;
     const std::string name(line);
+    require_inside_of_fence(folder / name);
     std::error_code error;
     if (!fs::is_regular_file(folder / name, error))
       refuse(list, lines.number(),

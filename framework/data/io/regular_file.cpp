@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/file_text.hpp"
 
 namespace plumb::io {
@@ -31,6 +32,7 @@ std::string other_than_file(const std::filesystem::path& file) {
 }
 
 RegularFile::RegularFile(const std::filesystem::path& file, int flags, mode_t mode) : file_(file) {
+  require_inside_of_fence(file);
   require_file(file, other_than_file(file));  // before it is opened: to open a device may already do something
   descriptor_ = ::open(file.c_str(), flags | O_NONBLOCK | O_CLOEXEC | O_NOCTTY, mode);
   if (descriptor_ < 0) refuse(file, std::string("cannot be opened (") + std::strerror(errno) + "): check the path");
