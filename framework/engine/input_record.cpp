@@ -11,6 +11,7 @@
 #include <set>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/staging.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
@@ -38,8 +39,7 @@ void add_bytes(Hasher& hasher, const std::string& file) {
 /// What a run or a store made.
 bool is_made(const fs::path& folder) {
   std::error_code error;
-  return fs::exists(folder / "run.lock.yaml", error) || fs::exists(folder / "plumb-store", error) ||
-         folder.filename().string().find(".partial-") != std::string::npos;
+  return fs::exists(folder / "run.lock.yaml", error) || fs::exists(folder / "plumb-store", error);
 }
 
 class Walk {
@@ -65,6 +65,7 @@ class Walk {
     if (error) throw Error(path.string() + ": cannot be listed (" + error.message() + "); make it readable, or name another input");
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) {
+      if (io::is_staging_name(name)) continue;  // another run is about to leave its results here
       const fs::path inner = path / name;
       struct stat at{};
       if (stat(inner.c_str(), &at) != 0) continue;  // a link that leads nowhere

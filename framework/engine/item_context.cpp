@@ -40,6 +40,8 @@ void Stopwatch::add(std::int64_t nanoseconds) {
   if (running) running->added_ += nanoseconds;
 }
 
+const std::string* Stopwatch::path() { return running ? &running->path_ : nullptr; }
+
 void ItemContext::count(std::string_view what, std::uint64_t n) {
   if (counts_) books_.count(path_, what, n);
   if (!said_) return;

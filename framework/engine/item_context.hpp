@@ -24,6 +24,8 @@ class Stopwatch {
   static void item(std::string name, int pass, bool reused);
   /// Adds what other stopwatches summed up to the innermost of this thread.
   static void add(std::int64_t nanoseconds);
+  /// Of the step that this thread works for; null for none.
+  static const std::string* path();
 
  private:
   struct Item {

@@ -12,6 +12,9 @@
 namespace plumb {
 namespace {
 
+/// Of all other lines, so that an edited record does not pass for the run's own.
+const std::string hash_line = "record_hash: ";
+
 std::string digest_of(const std::string& text) {
   Hasher hasher;
   hasher.text(text);
@@ -47,13 +50,13 @@ class Reader {
     if (error != std::errc() || end != text.data() + text.size()) fail("a number is expected before, not '" + text + "'");
     return value;
   }
-  Hash128 take_hash(const std::string& begin) {
-    const std::string text = take(begin);
-    Hash128 hash;
-    if (text.size() != 32 || std::from_chars(text.data(), text.data() + 16, hash.high, 16).ptr != text.data() + 16 ||
-        std::from_chars(text.data() + 16, text.data() + 32, hash.low, 16).ptr != text.data() + 32)
+  Hash128 take_hash(const std::string& begin) { return hash(take(begin)); }
+  Hash128 hash(const std::string& text) const {
+    Hash128 value;
+    if (text.size() != 32 || std::from_chars(text.data(), text.data() + 16, value.high, 16).ptr != text.data() + 16 ||
+        std::from_chars(text.data() + 16, text.data() + 32, value.low, 16).ptr != text.data() + 32)
       fail("32 hexadecimal digits are expected before, not '" + text + "'");
-    return hash;
+    return value;
   }
   bool over() const { return over_; }
   [[noreturn]] void fail(const std::string& why) const {
@@ -71,6 +74,19 @@ class Reader {
   int number_ = 0;
   bool over_ = false;
 };
+
+/// "a b.txt": {bytes: 12, hash: HASH}
+FileRecord file_of(Reader& reader) {
+  const std::string line = reader.take("  - ");
+  const auto bytes = line.rfind(": {bytes: "), hash = line.rfind(", hash: ");
+  if (bytes == line.npos || hash == line.npos || hash < bytes + 10 || line.back() != '}') reader.fail("a file is expected before");
+  FileRecord file;
+  file.name = line.substr(0, bytes);
+  file.name = from_quotes(file.name).value_or(file.name);
+  file.bytes = reader.number<std::uint64_t>(line.substr(bytes + 10, hash - bytes - 10));
+  file.hash = reader.hash(line.substr(hash + 8, line.size() - hash - 9));
+  return file;
+}
 
 /// {use: match.nearest, version: 1, module: HASH}
 StepRecord step_of(Reader& reader) {
@@ -94,7 +110,8 @@ std::string lock_text(const RunRecord& record) {
   std::ostringstream out;
   out << pipeline::lock_first_line << "\nplumb: " << record.plumb << "\nabi: " << in_quotes(record.abi) << "\nlibrary: " << in_quotes(record.library)
       << "\nname: " << in_quotes(record.name) << "\nfiles:\n";
-  for (const std::string& file : record.files) out << "  - " << in_quotes_where_needed(file) << '\n';
+  for (const FileRecord& file : record.files)
+    out << "  - " << in_quotes_where_needed(file.name) << ": {bytes: " << file.bytes << ", hash: " << file.hash.text() << "}\n";
   out << "steps:\n";
   for (const StepRecord& step : record.steps) {
     out << "  " << step.path << ": {use: " << step.use << ", version: " << step.version;
@@ -109,7 +126,22 @@ std::string lock_text(const RunRecord& record) {
   out << "pipeline_digest: " << digest_of(record.pipeline) << "\npipeline: |\n";
   std::istringstream lines(record.pipeline);
   for (std::string line; std::getline(lines, line);) out << "  " << line << '\n';
-  return out.str();
+  std::string text = out.str();
+  return text.insert(text.find("\nfiles:\n") + 1, hash_line + digest_of(text) + "\n");
+}
+
+std::optional<std::vector<FileRecord>> files_of_lock(const std::string& text) {
+  if (!text.starts_with(pipeline::lock_first_line)) return std::nullopt;
+  const auto begin = text.find("\n" + hash_line) + 1, end = text.find('\n', begin);
+  if (begin == 0 || end == text.npos) return std::nullopt;
+  std::string hashed = text;
+  hashed.erase(begin, end + 1 - begin);
+  if (text.substr(begin, end - begin) != hash_line + digest_of(hashed)) return std::nullopt;
+  std::vector<FileRecord> files;
+  Reader reader(lock_name, text.substr(end + 1));
+  reader.take("files:");
+  while (reader.at("  - ")) files.push_back(file_of(reader));
+  return files;
 }
 
 RunRecord read_lock(const std::filesystem::path& file) {
@@ -124,11 +156,9 @@ RunRecord read_lock(const std::filesystem::path& file) {
   record.abi = reader.take_quoted("abi: ");
   record.library = reader.take_quoted("library: ");
   record.name = reader.take_quoted("name: ");
+  reader.take_hash(hash_line);
   reader.take("files:");
-  while (reader.at("  - ")) {
-    const std::string name = reader.take("  - ");
-    record.files.push_back(from_quotes(name).value_or(name));
-  }
+  while (reader.at("  - ")) record.files.push_back(file_of(reader));
   reader.take("steps:");
   while (reader.at("  ")) record.steps.push_back(step_of(reader));
   reader.take("inputs:");

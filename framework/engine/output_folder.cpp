@@ -1,91 +1,111 @@
 #include "plumb/engine/output_folder.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cerrno>
+#include <cstring>
 #include <map>
-#include <set>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/file_name.hpp"
 #include "plumb/engine/quoted.hpp"
-#include "plumb/pipeline/foreign_file.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* first_line = pipeline::lock_first_line;
+[[noreturn]] void refuse(const fs::path& shown, const std::string& what, const std::string& move) {
+  throw Error(shown.string() + ": " + what + "; give another folder with -o, or move " + move + " away");
+}
 
-/// The files that the run in `folder` wrote, by its lock; empty when there is none.
-std::set<std::string> files_of_run(const fs::path& folder) {
-  std::ifstream in(folder / lock_name);
-  std::string line;
-  std::set<std::string> files;
-  if (!std::getline(in, line) || line != first_line) return files;
-  files.insert(lock_name);
-  bool in_list = false;
-  while (std::getline(in, line)) {
-    if (line == "files:") in_list = true;
-    else if (in_list && line.starts_with("  - ")) files.insert(from_quotes(line.substr(4)).value_or(line.substr(4)));
-    else in_list = false;
-  }
+/// Throws Error if it was the disk, or a permission, that kept a file from being looked at: then nothing is known of it.
+void require_looked_at(const fs::path& shown, const std::string& name) {
+  for (const int why : {ENOENT, EINVAL, ELOOP, EFBIG, EBUSY})
+    if (errno == why) return;
+  refuse(shown, "'" + name + "' cannot be read (" + std::strerror(errno) + ")", "it");
+}
+
+/// What a run wrote in a folder, by its record; nothing when there is no record.
+std::map<std::string, FileRecord> files_of_run(const io::Folder& folder, const fs::path& shown) {
+  constexpr std::size_t longest = std::size_t{64} << 20;
+  std::map<std::string, FileRecord> files;
+  const auto text = folder.text(lock_name, longest);
+  if (!text) return require_looked_at(shown, lock_name), files;
+  const auto recorded = files_of_lock(*text);
+  if (!recorded)
+    refuse(shown, std::string("nothing tells what in it is a run's, for its ") + lock_name + " was changed since, or is of an earlier Plumb", "that folder");
+  for (const FileRecord& file : *recorded) files[file.name] = file;
+  files[lock_name] = {lock_name, text->size(), hash_of(*text)};
   return files;
 }
 
-std::string plural(std::size_t n) { return n == 1 ? "" : "s"; }
-
-void refuse_foreign_files(const fs::path& folder) {
-  const auto own = files_of_run(folder);
+/// Also a folder or a link under the name of a file is foreign.
+void refuse_foreign(const io::Folder& folder, const fs::path& shown, const std::vector<std::string>& names, const std::map<std::string, FileRecord>& own) {
   std::vector<std::string> foreign;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (!own.contains(entry.path().filename().string())) foreign.push_back(entry.path().filename().string());
+  for (const std::string& name : names) {
+    const bool is_file = folder.stamp(name).has_value();
+    if (!is_file) require_looked_at(shown, name);
+    if (!is_file || !own.contains(name)) foreign.push_back(name);
+  }
   if (foreign.empty()) return;
-  throw Error(folder.string() + ": holds '" + foreign.front() + "'" +
-              (foreign.size() > 1 ? " and " + std::to_string(foreign.size() - 1) + " more file" + plural(foreign.size() - 1) : "") +
-              " that no run of Plumb wrote; give another folder with -o, or move them away");
+  const std::size_t more = foreign.size() - 1;
+  refuse(shown, "holds '" + foreign.front() + "'" + (more > 0 ? " and " + std::to_string(more) + " more file" + (more > 1 ? "s" : "") : "") + " that no run of Plumb wrote",
+         "them");
 }
 
-void write_file(const fs::path& file, const FileBytes& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  bytes.give([&](std::string_view piece) { out.write(piece.data(), static_cast<std::streamsize>(piece.size())); });
-  out.close();
-  if (!out) throw Error(file.string() + ": cannot be written; is the disk full?");
+/// All that is in a folder of results. Throws Error when not every bit of it is as a run wrote it.
+io::Listing made_by_a_run(const io::Folder& folder, const fs::path& shown) {
+  const auto names = folder.names();
+  if (!names) refuse(shown, std::string("cannot be listed (") + std::strerror(errno) + ")", "that folder");
+  if (names->empty()) return {};
+  const auto files = files_of_run(folder, shown);
+  refuse_foreign(folder, shown, *names, files);
+  io::Listing listing;
+  for (const std::string& name : *names) {
+    const FileRecord& record = files.at(name);
+    const auto stamp = folder.stamp(name);
+    const bool same_size = stamp && stamp->size == record.bytes;
+    const auto file = same_size ? folder.hashed(name) : std::nullopt;
+    if (same_size && !file) require_looked_at(shown, name);
+    if (!file || file->hash != record.hash) refuse(shown, "'" + name + "' was changed since a run wrote it", "it");
+    listing.files.push_back({name, file->stamp});
+  }
+  return listing;
 }
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder) : staged_(folder, "give another folder with -o") {
-  if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());
-}
+OutputFolder::OutputFolder(const fs::path& folder) : staged_(folder, "give another folder with -o", made_by_a_run) {}
 
-void OutputFolder::fill(RunRecord record, const RunResult& result) {
+std::string OutputFolder::fill(RunRecord record, const RunResult& result) {
   std::map<std::string, std::string> maker;  // by file name
   record.files.clear();
   for (const MadeDocument& made : result.documents) {
     const std::string& name = made.document->name;
-    if (const std::string fault = fault_of_file_name(name); !fault.empty())
-      throw Error("step '" + made.path + "': '" + name + "' " + fault);
+    if (const std::string fault = fault_of_result_name(name); !fault.empty())
+      throw Error("step '" + made.path + "': " + in_quotes(name) + " " + fault);
     const auto [at, is_new] = maker.try_emplace(name, made.path);
     if (!is_new)
       throw Error("steps '" + at->second + "' and '" + made.path + "' both write '" + name + "'; give one another name");
-    write_file(staged_.staging() / name, made.document->bytes);
-    record.files.push_back(name);
+    Hasher hasher;
+    staged_.write(name, [&](const io::Take& take) {
+      made.document->bytes.give([&](std::string_view piece) {
+        hasher.bytes(piece.data(), piece.size());
+        take(piece);
+      });
+    });
+    record.files.push_back({name, made.document->bytes.size(), hasher.hash()});
   }
-  write_file(staged_.staging() / lock_name, lock_text(record));
+  staged_.write(lock_name, [&](const io::Take& take) { take(lock_text(record)); });
   try {
-    if (fs::exists(staged_.place())) refuse_foreign_files(staged_.place());  // it may have changed meanwhile
+    staged_.look_again();  // the folder may have changed meanwhile
   } catch (const Error& e) {
     throw Error(std::string(e.what()) + "; what this run made is in " + staged_.keep().string());
   }
-  staged_.finish();
+  return staged_.finish();
 }
 
-std::string fault_of_file_name(const std::string& name) {
-  const bool plain = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  if (name == lock_name) return "is what the run itself writes; choose another name";
-  if (name.empty() || name == "." || name == ".." || name != fs::path(name).filename() || name.size() > 200 || !plain)
-    return "is no name for a file in the output folder (no slashes, no control characters, 200 bytes at most); choose another";
-  return "";
+std::string fault_of_result_name(const std::string& name) {
+  return name == lock_name ? "is what the run itself writes; choose another name" : fault_of_file_name(name);
 }
 
 }  // namespace plumb

@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <fstream>
+#include <functional>
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/results.hpp"
@@ -73,6 +75,69 @@ TEST_F(Folder, IsNotTouchedWhenItHoldsSomethingElse) {
   EXPECT_THROW(OutputFolder(base / "out"), Error);
   EXPECT_EQ(read(base / "out/mine.txt"), "mine");
   EXPECT_EQ(read(base / "out/a.txt"), "one");
+}
+
+/// What an OutputFolder says to a folder in which a run left a.txt and something was done since.
+struct Changed : Folder {
+  std::string refused(const std::function<void(const fs::path& out)>& change) {
+    fs::remove_all(base / "out");
+    OutputFolder(base / "out").fill(record, with("a.txt", "one"));
+    change(base / "out");
+    try {
+      OutputFolder folder(base / "out");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(Changed, AFileOfTheRunThatWasEditedIsKept) {
+  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / "a.txt") << "two"; }), testing::HasSubstr("'a.txt' was changed since a run wrote it"));
+  EXPECT_EQ(read(base / "out/a.txt"), "two");
+  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / "a.txt", std::ios::app) << "more"; }), testing::HasSubstr("'a.txt' was changed"));
+  EXPECT_EQ(refused([](const fs::path& out) { std::ofstream(out / "a.txt") << "one"; }), "");  // the same bytes
+  EXPECT_EQ(refused([](const fs::path& out) { fs::remove(out / "a.txt"); }), "");
+}
+
+TEST_F(Changed, AFolderLinkOrPipeUnderTheNameOfAFileIsKept) {
+  const auto instead = [&](const std::function<void(const fs::path& file)>& make) {
+    return refused([&](const fs::path& out) {
+      fs::remove(out / "a.txt");
+      make(out / "a.txt");
+    });
+  };
+  EXPECT_THAT(instead([](const fs::path& file) { fs::create_directory(file), std::ofstream(file / "mine") << "mine"; }), testing::HasSubstr("holds 'a.txt' that no run"));
+  EXPECT_EQ(read(base / "out/a.txt/mine"), "mine");
+  std::ofstream(base / "victim") << "one";
+  EXPECT_THAT(instead([&](const fs::path& file) { fs::create_symlink(base / "victim", file); }), testing::HasSubstr("holds 'a.txt' that no run"));
+  EXPECT_THAT(instead([](const fs::path& file) { mkfifo(file.c_str(), 0600); }), testing::HasSubstr("holds 'a.txt' that no run"));
+  EXPECT_EQ(read(base / "victim"), "one");
+}
+
+TEST_F(Changed, AnEditedRecordProvesNothing) {
+  const auto edited = [](const fs::path& out) {
+    std::string text = read(out / lock_name);
+    text.insert(text.find("steps:"), "  - thesis.tex: {bytes: 4, hash: " + hash_of("mine").text() + "}\n");
+    std::ofstream(out / lock_name) << text;
+    std::ofstream(out / "thesis.tex") << "mine";
+  };
+  EXPECT_THAT(refused(edited), testing::HasSubstr("run.lock.yaml was changed since"));
+  EXPECT_EQ(read(base / "out/thesis.tex"), "mine");
+  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / lock_name) << "# A run of Plumb: what made the files beside this one.\nplumb: 0.1.0\nfiles:\n  - a.txt\n"; }),
+              testing::HasSubstr("or is of an earlier Plumb"));
+}
+
+TEST_F(Changed, ARecordThatNamesWhatLiesElsewhereReachesNothing) {
+  std::ofstream(base / "thesis.tex") << "mine";
+  RunRecord forged;
+  forged.files = {{"../thesis.tex", 4, hash_of("mine")}, {(base / "thesis.tex").string(), 4, hash_of("mine")}};
+  EXPECT_EQ(refused([&](const fs::path& out) {
+              fs::remove(out / "a.txt");
+              std::ofstream(out / lock_name) << lock_text(forged);
+            }), "");
+  OutputFolder(base / "out").fill(record, with("b.txt", "two"));
+  EXPECT_EQ(read(base / "thesis.tex"), "mine");
 }
 
 TEST_F(Folder, LeavesNothingBehindWhenTheRunFails) {

@@ -7,6 +7,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/values.hpp"
 #include "plumb/engine/output_folder.hpp"
+#include "plumb/engine/quoted.hpp"
 #include "plumb/pipeline/diagnostics.hpp"
 
 namespace plumb {
@@ -52,15 +53,22 @@ class Preflight {
     }
   }
 
+  /// In all passes.
+  std::vector<ParameterValue> values_of(const PlannedParameter& parameter) const {
+    return parameter.row < 0 ? std::vector{parameter.value} : plan_.repeats[parameter.repeat].rows[parameter.row].values;
+  }
+
   void look_at_file(const PlannedStep& step) {
     const auto& outputs = step.description->outputs;
     if (std::none_of(outputs.begin(), outputs.end(), [](const auto& port) { return port.type == &type_of<Document>(); })) return;
     for (std::size_t p = 0; p < step.parameters.size(); ++p) {
       if (step.description->parameters[p].name != "name") continue;
+      const Origin& origin = step.parameters[p].origin.file.empty() ? step.origin : step.parameters[p].origin;
+      for (const ParameterValue& value : values_of(step.parameters[p]))
+        if (const auto* each = std::get_if<std::string>(&value))
+          if (const std::string fault = fault_of_result_name(*each); !fault.empty()) tell(step, origin, in_quotes(*each) + " " + fault);
       const auto* name = std::get_if<std::string>(&step.parameters[p].value);
       if (!name) continue;
-      const Origin& origin = step.parameters[p].origin.file.empty() ? step.origin : step.parameters[p].origin;
-      if (const std::string fault = fault_of_file_name(*name); !fault.empty()) tell(step, origin, "'" + *name + "' " + fault);
       const auto [earlier, is_new] = written_.try_emplace(*name, step.path);
       if (!is_new) tell(step, origin, "step '" + earlier->second + "' writes '" + *name + "' too; give one another name");
     }

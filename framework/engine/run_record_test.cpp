@@ -29,7 +29,7 @@ struct Record : testing::Test {
   RunRecord some() const {
     RunRecord record;
     record.plumb = "0.1.0", record.abi = "an: \"abi\"", record.library = "l", record.name = "n";
-    record.files = {"map.ply", "a b.txt", "\"odd\n.txt", "- x"};
+    record.files = {{"map.ply", 12, {1, 2}}, {"a b.txt", 0, {}}, {"\"odd\n.txt", 1, {3, 4}}, {"- x: {bytes: 1, hash: 2}", 5, {~0ull, 6}}};
     record.steps = {{"a.b", "test.keep", 3, "0123"}, {"c", "test.sum", 1, ""}};
     record.inputs = {input_record(input.string(), true), input_record((input / "odometry.tum").string(), false)};
     record.pipeline = "plumb: 1\n\nsteps:\n  a: {use: x}  # \xff\n";

@@ -3,6 +3,7 @@
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/item_context.hpp"
+#include "plumb/engine/running_call.hpp"
 #include "plumb/engine/step_key.hpp"
 
 namespace plumb {
@@ -187,6 +188,7 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
   const bool passing = itemwise() && keeping_ == Keeping::passing, first = passing && first_asked(0, k);
   // In a worker nothing is booked but what is warned: counts go home with the reply.
   ItemContext context(state_.books, plan_.path, [&] { return fold ? base_key_.low : seed_of(inputs); }, !state_.passed && (!passing || first), said);
+  const RunningCall now(*this, k);
   try {
     if (fold) run_fold(outputs, context);
     else step_.run(params_.get(), inputs, outputs, context);

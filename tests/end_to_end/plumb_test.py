@@ -27,7 +27,7 @@ UNIMPROVED = PIPELINES / "presets/zhang2023_unimproved.yaml"
 
 os.environ["PLUMB_STORE"] = "none"  # nothing is kept beyond a case, and nothing is taken from the user's cache; a case that wants a store names one
 
-DONE, WRONG_INPUT, WRONG_COMMAND_LINE, STEP_FAILED = 0, 1, 2, 3  # as `plumb --help` says
+DONE, WRONG_INPUT, WRONG_COMMAND_LINE, STEP_FAILED, UNSETTLED = 0, 1, 2, 3, 4  # as `plumb --help` says
 
 
 class Said:
@@ -71,7 +71,13 @@ def refused(said, *words):
 def nothing_left(output):
     """Neither the output folder nor a half-written one stands beside where it would be."""
     output = Path(output)
-    left = [entry.name for entry in output.parent.glob(output.name + "*")] if output.parent.is_dir() else []
+    left = [entry.name for pattern in (output.name + "*", "." + output.name + ".plumb-*") for entry in output.parent.glob(pattern)] if output.parent.is_dir() else []
+    assert not left, f"left behind: {left}"
+
+
+def nothing_staged(folder):
+    """No command left a folder that it was making, or its marker, in `folder`."""
+    left = [entry.name for entry in Path(folder).glob(".*.plumb-*")]
     assert not left, f"left behind: {left}"
 
 

@@ -5,11 +5,14 @@
 #include <set>
 
 #include "console.hpp"
+#include "exit_guard.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/file_name.hpp"
 #include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/preflight.hpp"
+#include "plumb/engine/quoted.hpp"
 #include "plumb/pipeline/overlay.hpp"
 #include "plumb/report/comparison.hpp"
 #include "store_option.hpp"
@@ -117,11 +120,22 @@ void require_timed(const std::vector<std::string>& timed, const Plan& pipeline) 
           " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
+/// The pipeline's name and those of the inputs become folders', and the former also names what lies beside an input.
+void require_good_names(const Options& options, const Plan& pipeline, const std::vector<std::string>& inputs) {
+  if (const std::string fault = fault_of_file_name(pipeline.name); !fault.empty())
+    throw Error(pipeline.files.front() + ": its name " + in_quotes(pipeline.name) + ", of which compare makes a folder, " + fault);
+  if (options.output.empty()) return;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    if (const std::string fault = fault_of_file_name(inputs[k]); !fault.empty())
+      throw Error("--input " + options.inputs[k].string() + ": " + in_quotes(inputs[k]) + ", of which compare makes a folder in -o, " + fault);
+}
+
 void compare(const Options& options) {
   const Registry steps = installed_steps();
   const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
   const auto variants = variants_of(options, pipeline);
   const auto input_names = names_of(options.inputs);
+  require_good_names(options, pipeline, input_names);
   for (std::size_t k = 0; k < options.inputs.size(); ++k)
     for (std::size_t n = 0; n < k; ++n)
       if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
@@ -145,6 +159,7 @@ void compare(const Options& options) {
       runs[v].push_back({read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
     }
   }
+  const ExitGuard while_loading;
   for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
@@ -154,6 +169,8 @@ void compare(const Options& options) {
         runs[v][k].folder =
             std::make_unique<OutputFolder>(options.output / variants[v].name / input_names[k]);
 
+  const ExitGuard while_running;
+  bool settled = true;
   std::vector<std::vector<std::vector<Number>>> figures(variants.size());
   for (std::size_t k = 0; k < input_names.size(); ++k)
     for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -165,31 +182,35 @@ void compare(const Options& options) {
         run_options.store = store.get();
         const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
         const RunResult result = run_plan(run.plan, steps, run_options, console);
-        if (run.folder) run.folder->fill(record, result);
+        if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : ""; !unsettled.empty()) {
+          std::cerr << "plumb: " << unsettled << "\n";
+          settled = false;
+        }
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
                        input_names[k].c_str(), result.seconds);
-      } catch (const Error& e) {
+      } catch (const std::exception& e) {
         std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
                   << ": " << e.what() << "\n";
-        throw CLI::RuntimeError(3);
+        throw CLI::RuntimeError(exit_failed);
       }
     }
   if (store) say_faults(*store);
   const Comparison comparison = plumb::compare(variant_names, input_names, figures);
   std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
+  if (!settled) throw CLI::RuntimeError(exit_unsettled);
 }
 
 /// What `--variant` takes; the name becomes a folder's.
 std::string fault_of_variant(const std::string& option) {
   const auto equals = option.find('=');
   const std::string name = option.substr(0, equals);
-  if (equals == std::string::npos || equals + 1 == option.size() || name.empty() ||
-      name.starts_with('.') || name.find('/') != std::string::npos)
+  if (equals == std::string::npos || equals + 1 == option.size() || name.empty())
     return "expected NAME=PRESET, as in unimproved=presets/zhang2023_unimproved.yaml, not '" +
            option + "'";
-  return "";
+  const std::string fault = fault_of_file_name(name);
+  return fault.empty() ? "" : in_quotes(name) + " " + fault;
 }
 
 }  // namespace

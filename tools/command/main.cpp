@@ -1,10 +1,17 @@
 /// The `plumb` command.
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/staged_folder.hpp"
 #include "plumb/pipeline/diagnostics.hpp"
 
 namespace plumb::command {
@@ -15,7 +22,27 @@ Registry installed_steps() { return Registry::scan(Registry::standard_folders(pl
 
 }  // namespace plumb::command
 
+namespace {
+
+/// Takes the numbers of standard input, output and error if they are closed, so that no file of a run gets one of them and what is said there.
+void open_standard_files() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(number, F_GETFD) < 0 && open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) _exit(plumb::command::exit_refused);
+}
+
+/// When all is done: whether it could also be said.
+int said() {
+  errno = 0;
+  if (std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
+  std::cerr << "plumb: standard output does not take what was to be said" << (errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : "")
+            << "; all else is done\n";
+  return plumb::command::exit_unsettled;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  open_standard_files();
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with -DPLUMB_ARCH= for any x86-64\n";
     return 1;
@@ -26,7 +53,9 @@ int main(int argc, char** argv) {
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
       "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
       "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
-      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused its input or failed while running.");
+      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused its input or failed while running;\n"
+      "4 done and all results in place, but something about them is not as it should be: standard output did not take what was to be said,\n"
+      "or the disk did not take the end of it; it is said which.");
   app.require_subcommand(1);
   app.add_option("--plugin-path", plumb::command::plugin_path, "A further folder with modules (also PLUMB_PLUGIN_PATH)");
   app.set_version_flag("--version", PLUMB_VERSION);
@@ -45,15 +74,17 @@ int main(int argc, char** argv) {
   plumb::command::add_worker(app);
   try {
     app.parse(argc, argv);
-    if (!std::cout.flush()) throw plumb::Error("standard output cannot be written; what was to be said is lost");
-    return 0;
+    return said();
   } catch (const CLI::RuntimeError& e) {
     return e.get_exit_code();
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? said() : plumb::command::exit_wrong_command_line;
   } catch (const plumb::PipelineError& e) {
     std::cerr << e.what() << '\n';
     return 1;
+  } catch (const plumb::io::WriteError& e) {
+    std::cerr << "plumb: " << e.what() << '\n';
+    return plumb::command::exit_failed;
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << '\n';
     return 1;

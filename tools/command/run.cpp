@@ -5,6 +5,7 @@
 
 #include "console.hpp"
 #include "executor_options.hpp"
+#include "exit_guard.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/amount.hpp"
@@ -115,6 +116,7 @@ void run(Options& options) {
   const Registry steps = options.untrusted.steps();
   auto [plan, record] = options.locked.empty() ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}} : locked(options, steps);
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
+  const ExitGuard while_loading;
   preflight(plan, steps);
   const std::vector<SideFile> side_files = {{"--log", options.log, "log", log_mark},
                                             {"--events", options.events, "events", EventLines::mark},
@@ -129,6 +131,8 @@ void run(Options& options) {
   OutputFolder folder(options.output);
   for (const SideFile& file : side_files)
     if (!file.file.empty()) begin(file);
+  const ExitGuard while_running;
+  std::string unsettled;
   try {
     Listeners listeners(options);
     Observers all = listeners.all();
@@ -137,7 +141,7 @@ void run(Options& options) {
     run_options.store = store.get(), run_options.fresh = options.fresh;
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
-    folder.fill(std::move(record), result);
+    unsettled = folder.fill(std::move(record), result);
     listeners.say_of_files(options.log);
     if (options.explain)
       for (const Explained& step : result.explained) std::cout << step.text() << "\n";
@@ -146,8 +150,11 @@ void run(Options& options) {
     else print_summary(std::cout, plan, result, options.output, options.times);
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
-    throw CLI::RuntimeError(3);
+    throw CLI::RuntimeError(exit_failed);
   }
+  if (unsettled.empty()) return;
+  std::cerr << "plumb: " << unsettled << "\n";
+  throw CLI::RuntimeError(exit_unsettled);
 }
 
 }  // namespace
@@ -157,7 +164,7 @@ void add_run(CLI::App& app) {
   auto options = std::make_shared<Options>();
   options->pipeline.add_to(*command);
   options->pipeline.overlay.needs_files = true;
-  command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced")->required();
+  command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced, if all in it is as the run left it")->required();
   command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->check(CLI::Range(0, 1024))->capture_default_str();
   options->store.add_to(*command);
   command->add_flag("--fresh", options->fresh, "Take nothing from the store; keep what is made");

@@ -111,8 +111,12 @@ simulate::IndoorScene indoor_scene_of(const Arguments& arguments) {
   return scene;
 }
 
-/// Makes the sequence and says so in a line.
-std::string made_by(const Arguments& arguments,
+/// What was made, in a line, and what is not as it should be, in a sentence.
+struct Made {
+  std::string line, unsettled;
+};
+
+Made made_by(const Arguments& arguments,
                     const std::function<void(std::size_t, std::size_t)>& progress) {
   remove_staging_when_interrupted();
   char line[256];
@@ -122,7 +126,7 @@ std::string made_by(const Arguments& arguments,
     std::snprintf(line, sizeof line, "%zu scans (%zu lost), %.0f MB, %.1f m of path, drift %.2f m",
                   made.scans, made.lost, 1e-6 * static_cast<double>(made.bytes), made.length,
                   made.drift);
-    return line;
+    return {line, made.unsettled};
   }
   const simulate::Summary made =
       simulate::simulate(scene_of(arguments), arguments.output, arguments.threads, progress);
@@ -130,7 +134,7 @@ std::string made_by(const Arguments& arguments,
                 "%zu frames, %.1f million points, %.0f MB, %.1f m of path, drift %.2f m",
                 made.frames, 1e-6 * static_cast<double>(made.points),
                 1e-6 * static_cast<double>(made.bytes), made.length, made.drift);
-  return line;
+  return {line, made.unsettled};
 }
 
 void run(const Arguments& arguments) {
@@ -140,10 +144,13 @@ void run(const Arguments& arguments) {
     if (terminal && (done % 8 == 0 || done == of))
       std::fprintf(stderr, "\rscanned %zu of %zu frames%s", done, of, done == of ? "\n" : "");
   };
-  const std::string made = made_by(arguments, progress);
+  const Made made = made_by(arguments, progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  std::printf("%s: %s (%.1f s)\n", arguments.output.string().c_str(), made.c_str(), seconds);
+  std::printf("%s: %s (%.1f s)\n", arguments.output.string().c_str(), made.line.c_str(), seconds);
+  if (made.unsettled.empty()) return;
+  std::fprintf(stderr, "plumb: %s\n", made.unsettled.c_str());
+  throw CLI::RuntimeError(exit_unsettled);
 }
 
 /// An option of the command line, of streets, of buildings or of both.

@@ -1,5 +1,6 @@
 #include "untrusted.hpp"
 
+#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -17,7 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
-constexpr int step_failed = 3;  // the exit of a run whose step failed
 
 /// Memory that is asked for beyond `bytes` is refused, which fails the step; a crash writes no core.
 void bound_memory(const std::string& text) {
@@ -32,12 +32,16 @@ void bound_memory(const std::string& text) {
 void bound_time(const std::string& text) {
   const auto time = age_of_text("--max-time", text);
   if (time.count() <= 0) throw Error("--max-time " + text + ": give a time above zero, as in 10min");
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);  // a signal is for the thread that waits for it (interrupt.cpp), never for this one
   std::thread([time, text] {
     std::this_thread::sleep_for(time);
     io::remove_all_staging();
     std::fprintf(stderr, "\nplumb: ended after --max-time %s; what was unfinished is removed; give it more time if you trust it\n", text.c_str());
-    _exit(step_failed);
+    _exit(exit_failed);
   }).detach();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }

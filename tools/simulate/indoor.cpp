@@ -156,9 +156,9 @@ IndoorSummary simulate(const IndoorScene& scene, const std::filesystem::path& fo
   output.write("truth.tum", tum_text(kept(stage.drive.poses, stage)));
   output.write("odometry.tum", tum_text(kept(stage.odometry, stage)));
   output.write("plan.txt", plan_text(stage.building.walls));
-  output.write("scene.yaml", scene_text(stage.scene));
-  output.finish();
-  return {scans, lost, log.size(), way_length(stage.drive.poses), greatest_error(stage)};
+  std::string unsettled = output.finish(scene_text(stage.scene));
+  return {scans, lost, log.size(), way_length(stage.drive.poses), greatest_error(stage),
+          std::move(unsettled)};
 }
 
 }  // namespace plumb::simulate

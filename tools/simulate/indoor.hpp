@@ -35,6 +35,7 @@ struct IndoorSummary {
   std::size_t scans = 0, lost = 0, bytes = 0;
   double length = 0;  ///< of the true path [m]
   double drift = 0;   ///< greatest position error of the odometry [m]
+  std::string unsettled;  ///< what OutputFolder::finish said
 };
 
 /// Writes into `folder`, beside it first and then renamed, with the same bytes for any number of

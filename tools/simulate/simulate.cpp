@@ -98,10 +98,9 @@ Summary simulate(const Scene& scene, const std::filesystem::path& folder, int th
   });
   output.write("truth.tum", tum_text(stage.truth));
   output.write("odometry.tum", tum_text(stage.odometry));
-  output.write("scene.yaml", scene_text(stage.scene));
-  output.finish();
+  const std::string unsettled = output.finish(scene_text(stage.scene));
   return {frames, points, bytes, travelled(stage.truth).back(),
-          drift_of(stage.odometry, stage.truth)};
+          drift_of(stage.odometry, stage.truth), unsettled};
 }
 
 }  // namespace plumb::simulate

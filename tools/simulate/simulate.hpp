@@ -33,6 +33,7 @@ struct Summary {
   std::size_t bytes = 0;
   double length = 0;  ///< of the true path [m]
   double drift = 0;   ///< drift_of the odometry [m]
+  std::string unsettled;  ///< what OutputFolder::finish said
 };
 
 /// Writes frames/000000.pcd..., odometry.tum, truth.tum and scene.yaml into `folder`, beside it

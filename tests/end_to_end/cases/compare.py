@@ -98,6 +98,28 @@ def test_a_wrong_command_line_exits_with_2(folder):
         assert said.err.strip() and not said.out, said
 
 
+def test_a_name_that_leads_out_of_the_output_is_refused(folder):
+    command, rooms = files(folder, seeds=[1])
+    for name in ("../escaped", str(folder / "absolute"), "a/b", ".hidden", "..", "\\x1b[2J", "x" * 201):
+        (folder / "chained.yaml").write_text(SMALL.replace("name: chained", f'name: "{name}"'))
+        said = plumb(*command, "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_INPUT)
+        refused(said, "chained.yaml: its name", "is no name for a file or folder", "choose another")
+        assert "\x1b" not in said.err, said
+    (folder / "chained.yaml").write_text(SMALL)
+    for name in ("../up", "/abs", ".hidden", "a/b"):
+        plumb(*command[:2], "--variant", f"{name}={folder}/loose.yaml", "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_COMMAND_LINE).has("is no name for")
+    rooms[0].rename(folder / ".rooms")
+    refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is no name for")
+    assert sorted(p.name for p in folder.iterdir()) == [".rooms", "chained.yaml", "loose.yaml"]
+
+
+def test_a_step_s_file_stays_in_the_output(folder):
+    _, rooms = files(folder, seeds=[1])
+    for name in ("../escaped.tum", "/tmp/absolute.tum", "a/b.tum", ".hidden", "run.lock.yaml"):
+        plumb("run", folder / "chained.yaml", "--set", f"input={rooms[0] / 'log.clf'}", "--set", f"trajectory.name={name}", "-o", folder / "out", code=WRONG_INPUT).has("choose another")
+    assert not (folder / "out").exists() and not (folder / "escaped.tum").exists()
+
+
 def test_an_input_that_is_given_twice_is_refused(folder):
     command, rooms = files(folder, seeds=[1])
     plumb(*command, "--input", rooms[0], "--input", rooms[0], code=WRONG_INPUT).has("given twice")

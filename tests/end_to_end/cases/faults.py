@@ -96,6 +96,16 @@ def test_a_module_that_leaves(folder):
     costs_its_item(folder, "leave", "exited with code 7")
 
 
+def test_a_module_that_ends_the_program_as_if_all_were_well(folder):
+    costs_its_item(folder, "exit", "exited with code 0")
+    for deed, where, title in (("exit", "bad", "step 'bad' (test.misbehave), edge 1-2: "), ("quick_exit", "bad", "step 'bad' (test.misbehave), edge 1-2: "),
+                               ("exit", "last", "step 'last' (test.missolve): ")):
+        before = files_of(folder / "good")
+        said = run(folder, "good", deed, "--quiet", where=where)
+        refused(said, title, "its module ended the program", "nothing is written")
+        assert files_of(folder / "good") == before and not list(folder.glob(".*")), list(folder.glob(".*"))
+
+
 def test_a_worker_that_is_killed_gets_a_second_try(folder):
     costs_its_item(folder, "killed", "signal 9")  # and is killed again
 

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import time
 
-from plumb_test import CASCADE, PLUMB, WRONG_INPUT, copy_of, files_of, plumb, refused, sequence
+from plumb_test import CASCADE, PLUMB, WRONG_INPUT, copy_of, files_of, nothing_staged, plumb, refused, sequence
 
 FAST = ["--set", "ranges.frames=10"]
 
@@ -53,7 +53,7 @@ def test_killed_at_any_moment_it_goes_on_from_there(folder):
     run(folder, "out")
     assert files_of(folder / "out") == expected
     assert all((blob.stat().st_ino, blob.stat().st_mtime_ns) == seen for blob, seen in kept.items())
-    assert not list(folder.glob("out.partial-*"))
+    nothing_staged(folder)
 
 
 def test_one_and_two_threads_fill_and_use_a_store_alike(folder):

@@ -11,7 +11,7 @@
 namespace plumb {
 namespace {
 
-enum class Deed { nothing, segfault, abort, loop, error, odd, terabyte, eat, nan, leave, killed };
+enum class Deed { nothing, segfault, abort, loop, error, odd, terabyte, eat, nan, leave, killed, exit, quick_exit };
 
 volatile int* volatile nowhere = nullptr;
 
@@ -32,7 +32,9 @@ void commit(Deed deed) {
     case Deed::eat:
       for (std::vector<std::vector<char>> much;;) much.emplace_back(std::size_t{1} << 24, 'x');
     case Deed::leave: _exit(7);
-    case Deed::killed: raise(SIGKILL);
+    case Deed::killed: raise(SIGKILL); return;
+    case Deed::exit: std::exit(0);
+    case Deed::quick_exit: std::quick_exit(0);
   }
 }
 
@@ -53,7 +55,8 @@ struct Misbehave : EdgeStep {
     is.choice("deed", &Params::deed,
               {{"nothing", Deed::nothing, ""}, {"segfault", Deed::segfault, ""}, {"abort", Deed::abort, ""}, {"loop", Deed::loop, ""},
                {"error", Deed::error, ""}, {"odd", Deed::odd, ""}, {"terabyte", Deed::terabyte, ""}, {"eat", Deed::eat, ""},
-               {"nan", Deed::nan, ""}, {"leave", Deed::leave, ""}, {"killed", Deed::killed, ""}}).doc("what it does");
+               {"nan", Deed::nan, ""}, {"leave", Deed::leave, ""}, {"killed", Deed::killed, ""},
+               {"exit", Deed::exit, ""}, {"quick_exit", Deed::quick_exit, ""}}).doc("what it does");
     is.param("from", &Params::from).doc("the edge's first segment");
     is.param("to", &Params::to).doc("the edge's second segment");
     is.input("edges", &In::edges, "edges").input("edge", &In::edge, "the edge").input("matches", &In::matches, "matches");
@@ -76,7 +79,7 @@ struct MisSolve : WholeStep {
   struct Params { Deed deed = Deed::nothing; };
   static void describe(Declaration<MisSolve>& is) {
     is.name("test.missolve").version(1).summary("Passes poses on, or not.");
-    is.choice("deed", &Params::deed, {{"nothing", Deed::nothing, ""}, {"segfault", Deed::segfault, ""}, {"nan", Deed::nan, ""}}).doc("what it does");
+    is.choice("deed", &Params::deed, {{"nothing", Deed::nothing, ""}, {"segfault", Deed::segfault, ""}, {"nan", Deed::nan, ""}, {"exit", Deed::exit, ""}}).doc("what it does");
     is.input("poses", &In::poses, "poses").output("poses", &Out::poses, "the same");
   }
   Out run(const In& in, const Params& params, Context&) const {
