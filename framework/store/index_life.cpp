@@ -43,7 +43,7 @@ bool is_as_left(const fs::path& index, const fs::path& sum) {
 }
 
 void remove_database(const fs::path& index) {
-  for (const char* part : {"", "-wal", "-shm"}) unlink(beside(index, part).c_str());
+  for (const char* part : {"", "-wal", "-shm", "-journal"}) unlink(beside(index, part).c_str());
 }
 
 }  // namespace
@@ -74,6 +74,7 @@ void Index::connect() { database_ = std::make_unique<Database>(file()); }
 
 /// Under the lock alone: leaves a sound index, in use.
 void Index::mend() {
+  remove_unfinished(store_);
   const fs::path sum = sum_of(store_);
   const bool closed = is_there(sum), there = is_there(file());
   std::string why;
@@ -84,8 +85,10 @@ void Index::mend() {
   } else if (there) {
     try {
       Database database(file());
-      why = damage_in(database);
-      if (why.empty()) return follow_files(database);
+      if (has_tables(database)) {
+        why = damage_in(database);
+        if (why.empty()) return follow_files(database);
+      }
     } catch (const DatabaseError& e) {
       if (e.cause() != DatabaseError::Cause::damage) throw;
       why = e.what();
