@@ -101,8 +101,10 @@ void remove_unfinished(const fs::path& store) {
   std::vector<fs::path> left;
   for (fs::directory_iterator file(store / "new", error), end; !error && file != end; file.increment(error)) left.push_back(file->path());
   for (fs::directory_iterator file(store, error), end; !error && file != end; file.increment(error))
-    for (const char* replaced : {"plumb-store.", "index.sum."})
-      if (const std::string name = file->path().filename().string(); name.starts_with(replaced) && is_number(name.substr(std::strlen(replaced)))) left.push_back(file->path());
+    for (const char* replaced : {"plumb-store.", "index.sum."}) {
+      const std::string name = file->path().filename().string();
+      if (name.starts_with(replaced) && is_number(name.substr(std::strlen(replaced)))) left.push_back(file->path());
+    }
   for (const fs::path& file : left) unlink(file.c_str());
 }
 
