@@ -8,6 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstring>
+#include <vector>
 
 namespace plumb {
 namespace fs = std::filesystem;
@@ -19,6 +21,20 @@ std::optional<Hash128> key_of(const std::string& name) {
   const auto part = [&](std::size_t at, std::uint64_t& to) { return std::from_chars(&name[at], &name[at] + 16, to, 16).ptr == &name[at] + 16; };
   if (!part(0, key.high) || !part(16, key.low) || key.text() != name) return std::nullopt;
   return key;
+}
+
+bool is_number(const std::string& text) { return !text.empty() && text.find_first_not_of("0123456789") == text.npos; }
+
+/// What stands in a file, or the names in a folder, to the disk.
+bool sync_path(const fs::path& path) {
+  const int place = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (place < 0) return false;
+  int done;
+  do done = fsync(place);
+  while (done != 0 && errno == EINTR);
+  const int why = errno;
+  close(place), errno = why;
+  return done == 0 || why == EINVAL || why == ENOTSUP;  // a file system that knows no such thing for folders
 }
 
 }  // namespace
@@ -73,10 +89,23 @@ bool replace_whole(const fs::path& file, std::string_view bytes) {
   const fs::path fresh = file.string() + "." + std::to_string(getpid());
   unlink(fresh.c_str());
   if (!write_whole(fresh, bytes)) return false;
-  if (rename(fresh.c_str(), file.c_str()) == 0) return true;
+  if (sync_path(fresh) && rename(fresh.c_str(), file.c_str()) == 0) return sync_path(file.parent_path());
   const int why = errno;
   unlink(fresh.c_str()), errno = why;
   return false;
+}
+
+void remove_unfinished(const fs::path& store) {
+  std::error_code error;
+  if (fs::exists(store / "jobs", error) && !fs::is_empty(store / "jobs", error)) return;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator file(store / "new", error), end; !error && file != end; file.increment(error)) left.push_back(file->path());
+  for (fs::directory_iterator file(store, error), end; !error && file != end; file.increment(error))
+    for (const char* replaced : {"plumb-store.", "index.sum."}) {
+      const std::string name = file->path().filename().string();
+      if (name.starts_with(replaced) && is_number(name.substr(std::strlen(replaced)))) left.push_back(file->path());
+    }
+  for (const fs::path& file : left) unlink(file.c_str());
 }
 
 MappedFile::MappedFile(const fs::path& file) {

@@ -26,8 +26,13 @@ bool write_whole(const std::filesystem::path& file, std::string_view bytes);
 using Take = std::function<void(std::string_view)>;
 bool write_pieces(const std::filesystem::path& file, const std::function<void(const Take& take)>& give);
 
-/// Puts a file in the place of another, or of none, at once. False, with errno, when the disk does not take it.
+/// Puts a file in the place of another, or of none, at once and so that a power cut leaves one of them. False, with errno, when the disk does not take
+/// it.
 bool replace_whole(const std::filesystem::path& file, std::string_view bytes);
+
+/// Removes what programs that were killed had not written to its end. For one who uses the store alone; while jobs of a cluster may go on without
+/// their driver (jobs/ says so) nothing is removed.
+void remove_unfinished(const std::filesystem::path& store);
 
 /// A file's bytes where the system keeps them in memory, for as long as this object lives. A file that is removed or replaced meanwhile stays as it was.
 class MappedFile {

@@ -7,7 +7,7 @@
 namespace plumb {
 namespace {
 
-constexpr int wait_ms = 10'000;  // for another process that writes
+constexpr int wait_ms = 10'000, hardly_ms = 100;  // for another process that writes
 
 DatabaseError::Cause cause_of(int code) {
   switch (code & 0xff) {
@@ -67,6 +67,8 @@ void Database::refuse(int code) const {
     if (const int system = sqlite3_system_errno(handle_); system != 0) why += std::string(", ") + std::strerror(system);
   throw DatabaseError(cause_of(extended), why);
 }
+
+void Database::wait_no_more() { sqlite3_busy_timeout(handle_, hardly_ms); }
 
 void Database::run(const char* sql) {
   const int code = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);

@@ -41,6 +41,8 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void run(const char* sql);
+  /// From now on others that write are hardly waited for: one who did not go may hold its lock for ever (as on a file server that is gone).
+  void wait_no_more();
   /// The first column of the first row, as text; "" when there is none.
   std::string ask(const char* sql);
   int changed() const;  ///< rows that the last statement wrote

@@ -42,7 +42,7 @@ void Index::with_database(Action action) {
     try {
       return action(*database_);
     } catch (const DatabaseError& e) {
-      if (e.cause() == DatabaseError::Cause::busy) return;
+      if (e.cause() == DatabaseError::Cause::busy) return database_->wait_no_more();
       if (e.cause() == DatabaseError::Cause::system) return fail(e.what());
       mend_while_open(e.what());
     }

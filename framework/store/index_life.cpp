@@ -34,16 +34,21 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, error);
 }
 
-std::string written_sum(const fs::path& index) { return hash_of(MappedFile(index).bytes()).text() + "\n"; }
+/// Empty when the index cannot be read.
+std::string written_sum(const fs::path& index) {
+  const MappedFile bytes(index);
+  return bytes.there() ? hash_of(bytes.bytes()).text() + "\n" : "";
+}
 
 /// Whether the file is the one that the last user left.
 bool is_as_left(const fs::path& index, const fs::path& sum) {
   if (is_there(beside(index, "-wal"))) return false;  // it leaves none
-  return MappedFile(index).there() && MappedFile(sum).bytes() == written_sum(index);
+  const std::string now = written_sum(index);
+  return !now.empty() && MappedFile(sum).bytes() == now;
 }
 
 void remove_database(const fs::path& index) {
-  for (const char* part : {"", "-wal", "-shm"}) unlink(beside(index, part).c_str());
+  for (const char* part : {"", "-wal", "-shm", "-journal"}) unlink(beside(index, part).c_str());
 }
 
 }  // namespace
@@ -74,6 +79,7 @@ void Index::connect() { database_ = std::make_unique<Database>(file()); }
 
 /// Under the lock alone: leaves a sound index, in use.
 void Index::mend() {
+  remove_unfinished(store_);
   const fs::path sum = sum_of(store_);
   const bool closed = is_there(sum), there = is_there(file());
   std::string why;
@@ -84,8 +90,10 @@ void Index::mend() {
   } else if (there) {
     try {
       Database database(file());
-      why = damage_in(database);
-      if (why.empty()) return follow_files(database);
+      if (has_tables(database)) {
+        why = damage_in(database);
+        if (why.empty()) return follow_files(database);
+      }
     } catch (const DatabaseError& e) {
       if (e.cause() != DatabaseError::Cause::damage) throw;
       why = e.what();
@@ -137,7 +145,8 @@ void Index::seal() {
       if (!damage_in(database).empty()) return;
       database.run("PRAGMA wal_checkpoint(TRUNCATE)");
     }
-    if (!is_there(beside(file(), "-wal"))) replace_whole(sum_of(store_), written_sum(file()));
+    const std::string sum = written_sum(file());
+    if (!is_there(beside(file(), "-wal")) && !sum.empty()) replace_whole(sum_of(store_), sum);
   } catch (const DatabaseError&) {
   }
 }

@@ -24,8 +24,12 @@ const std::array<Table, 3>& tables() {
 }  // namespace
 
 void make_tables(Database& database) {
+  Transaction all_or_none(database);
   for (const Table& table : tables()) database.run(table.definition.c_str());
+  all_or_none.commit();
 }
+
+bool has_tables(Database& database) { return database.ask("SELECT 1 FROM sqlite_schema LIMIT 1") == "1"; }
 
 std::string damage_in(Database& database) {
   Statement definitions(database, "SELECT sql FROM sqlite_schema ORDER BY rowid");

@@ -9,6 +9,9 @@ namespace plumb {
 
 void make_tables(Database& database);
 
+/// False for a database whose maker was ended before it had made them.
+bool has_tables(Database& database);
+
 /// What is wrong with the database: its pages, its tables, or a row whose checksum does not fit; "" when nothing is. Throws DatabaseError.
 std::string damage_in(Database& database);
 

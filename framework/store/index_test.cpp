@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "plumb/data/io/file_testing.hpp"
+#include "plumb/store/database.hpp"
 #include "plumb/store/store_testing.hpp"
 
 namespace plumb {
@@ -128,6 +129,24 @@ TEST(Index, ChecksEveryRowAfterARunThatWasKilled) {
     io::flip_byte(index, at + 2, 1);
     Store store(path);
     EXPECT_NE(store.index_rebuilt(), "") << inside;
+    expect_whole(store);
+  }
+}
+
+/// As kills leave it at different moments of its first making: no byte, a database without tables, and one that was not committed.
+TEST(Index, ThatWasNotMadeToItsEndIsMadeWithoutAWord) {
+  for (const char* made : {"", "PRAGMA journal_mode = WAL; VACUUM", "PRAGMA journal_mode = WAL; BEGIN; CREATE TABLE results(key BLOB)"}) {
+    const io::TestFolder folder;
+    const fs::path path = filled(folder);
+    fs::remove(path / "index.sum");
+    fs::remove(path / "index.sqlite");
+    put_back(path / "index.sqlite", "");
+    in_another_process([&] {
+      if (*made) Database(path / "index.sqlite").run(made);
+      kill(getpid(), SIGKILL);
+    });
+    Store store(path);
+    EXPECT_EQ(store.index_rebuilt() + store.index_fault(), "") << made;
     expect_whole(store);
   }
 }

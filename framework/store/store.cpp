@@ -45,9 +45,8 @@ Store::Store(const fs::path& folder, StoreRole role) : folder_(fs::absolute(fold
     if (fs::exists(folder_, error) && (!fs::is_directory(folder_) || holds_more_than_marks(folder_)) && !fs::exists(marked, error))
       refuse("holds something else and is no store; give a folder that is new or empty");
     fs::create_directories(folder_, error);
-    const fs::path fresh = folder_ / (std::string(mark_file) + "." + std::to_string(getpid()));
-    if (!error && write_whole(fresh, std::string(mark) + "\n")) fs::rename(fresh, marked, error);
-    else if (!error) error = {errno, std::generic_category()};
+    if (!error && !replace_whole(marked, std::string(mark) + "\n"))
+      if (const int why = errno; !fs::exists(marked, error)) error = {why, std::generic_category()};  // else another run was faster
   }
   if (!error) {
     std::string line(MappedFile(marked).bytes());

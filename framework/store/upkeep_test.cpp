@@ -56,6 +56,35 @@ TEST(Upkeep, PruneTakesWhatDeadRunsLeftUnfinished) {
   EXPECT_TRUE(fs::exists(store.folder() / "new/young"));
 }
 
+constexpr const char* unfinished[] = {"new/4f0c.17.1", "index.sum.4711", "plumb-store.12"};
+
+void leave_unfinished(const io::TestFolder& folder) {
+  for (const std::string name : unfinished) folder.write("store/" + name, "half");
+}
+
+TEST(Upkeep, WhoOpensAStoreAloneRemovesWhatKilledRunsHadNotWrittenToItsEnd) {
+  const io::TestFolder folder;
+  const fs::path place = folder.path() / "store";
+  { const Store made(place); }
+  leave_unfinished(folder);
+  folder.write("store/plumb-store.txt", "no number");
+  folder.write("store/jobs/4f0c/image", "a job of a cluster, which may go on");
+  { const Store later(place); }
+  for (const char* name : unfinished) EXPECT_TRUE(fs::exists(place / name)) << name;
+  fs::remove_all(place / "jobs/4f0c");
+  const Store alone(place);
+  for (const char* name : unfinished) EXPECT_FALSE(fs::exists(place / name)) << name;
+  EXPECT_TRUE(fs::exists(place / "plumb-store.txt"));
+}
+
+TEST(Upkeep, WhatAnotherRunWritesIsLeftToIt) {
+  const io::TestFolder folder;
+  const Store first(folder.path() / "store");
+  leave_unfinished(folder);
+  const Store second(folder.path() / "store");
+  for (const char* name : unfinished) EXPECT_TRUE(fs::exists(first.folder() / name)) << name;
+}
+
 TEST(Upkeep, APrunedResultIsMadeAgainByARunThatGoesOn) {
   const io::TestFolder folder;
   Store run(folder.path() / "store"), pruning(folder.path() / "store");

@@ -23,8 +23,11 @@ struct Options {
   double time_limit = 0;
 };
 
+/// Whether a driver is at the other end of a socket; a chunk has none.
+bool is_connected(const Options& options) { return options.task.empty() && fcntl(WorkerProcess::channel, F_GETFD) >= 0; }
+
 void run(Options& options) {
-  if (options.task.empty() && fcntl(WorkerProcess::channel, F_GETFD) < 0)
+  if (options.task.empty() && !is_connected(options))
     throw Error("worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor slurm', not by hand");
   Store store(options.worker.store, StoreRole::worker);
   if (!options.task.empty()) {
@@ -37,6 +40,15 @@ void run(Options& options) {
   }
   if (options.worker.contents) io::identify_files_by(io::FileIdentity::content);
   serve_calls(WorkerProcess::channel, installed_steps(), store, options.worker.memory);
+}
+
+void run_or_refuse(Options& options) {
+  try {
+    run(options);
+  } catch (const Error& e) {
+    if (!is_connected(options)) throw;
+    refuse_calls(WorkerProcess::channel, e.what());
+  }
 }
 
 }  // namespace
@@ -53,7 +65,7 @@ void add_worker(CLI::App& app) {
   command->add_option("--time-limit", options->time_limit, "Of one call [s]; 0 for none");
   command->add_option("--chunk", options->chunk, "Which chunk, from 0");
   command->footer("Example: none; it is not meant to be started by hand. `plumb run --help` has --isolate and --executor.");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_or_refuse(*options); });
 }
 
 }  // namespace plumb::command

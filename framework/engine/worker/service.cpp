@@ -104,6 +104,17 @@ class Service {
 
 }  // namespace
 
+void refuse_calls(int socket, const std::string& why) {
+  while (const auto message = receive_message(socket)) {
+    Reply reply;
+    reply.item = from_bytes<Request>(*message).item;
+    reply.process = static_cast<std::uint64_t>(getpid());
+    reply.fault = "a worker cannot begin: " + why;
+    reply.machinery = true;
+    if (!send_message(socket, to_bytes(reply))) return;
+  }
+}
+
 void serve_calls(int socket, const Registry& registry, Store& store, std::size_t memory) {
   if (memory > 0) {
     const rlimit limit{memory, memory};
