@@ -7,6 +7,7 @@
 #include <set>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/regular_file.hpp"
 #include "plumb/engine/quoted.hpp"
 #include "plumb/pipeline/foreign_file.hpp"
 
@@ -18,6 +19,7 @@ constexpr const char* first_line = pipeline::lock_first_line;
 
 /// The files that the run in `folder` wrote, by its lock; empty when there is none.
 std::set<std::string> files_of_run(const fs::path& folder) {
+  if (!io::other_than_file(folder / lock_name).empty()) return {};
   std::ifstream in(folder / lock_name);
   std::string line;
   std::set<std::string> files;

@@ -8,6 +8,7 @@
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/trajectory_text.hpp"
 #include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/overlay.hpp"
@@ -168,8 +169,7 @@ void compare(const Options& options) {
         if (run.folder) run.folder->fill(record, result);
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
-          std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
-                       input_names[k].c_str(), result.seconds);
+          std::cerr << variants[v].name << " on " << input_names[k] << ": " << io::fixed(result.seconds, 1) << " s\n";
       } catch (const Error& e) {
         std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
                   << ": " << e.what() << "\n";

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "command/command.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
 #include "simulate/names.hpp"
 #include "simulate/route.hpp"
@@ -143,7 +145,7 @@ void run(const Arguments& arguments) {
   const std::string made = made_by(arguments, progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  std::printf("%s: %s (%.1f s)\n", arguments.output.string().c_str(), made.c_str(), seconds);
+  std::cout << arguments.output.string() << ": " << made << " (" << io::fixed(seconds, 1) << " s)\n";
 }
 
 /// An option of the command line, of streets, of buildings or of both.

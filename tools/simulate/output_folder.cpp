@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/regular_file.hpp"
 #include "simulate/scene.hpp"
 
 namespace plumb::simulate {
@@ -16,6 +17,7 @@ constexpr const char* made[] = {"scene.yaml", "frames",  "odometry.tum",
 
 /// Whether the folder holds a simulation and nothing else.
 bool is_simulation(const fs::path& folder) {
+  if (!io::other_than_file(folder / "scene.yaml").empty()) return false;
   std::ifstream scene(folder / "scene.yaml");
   std::string line;
   if (!std::getline(scene, line) || !line.starts_with(scene_mark)) return false;
