@@ -1,40 +1,18 @@
 #include "plumb/engine/input_record.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <set>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/staging.hpp"
+#include "plumb/data/io/file_identity.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
-
-void add_bytes(Hasher& hasher, const std::string& file) {
-  const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const auto refuse = [&] {
-    const std::string why = std::strerror(errno);
-    if (handle >= 0) close(handle);
-    throw Error(file + ": cannot be read (" + why + "); make it readable, or leave out what asks for its content");
-  };
-  if (handle < 0) refuse();
-  std::vector<char> block(1 << 20);
-  for (;;) {
-    const ssize_t n = read(handle, block.data(), block.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) refuse();
-    if (n == 0) break;
-    hasher.bytes(block.data(), static_cast<std::size_t>(n));
-  }
-  close(handle);
-}
 
 /// What a run or a store made.
 bool is_made(const fs::path& folder) {
@@ -85,7 +63,7 @@ class Walk {
     if (!content_) return;
     bytes_.text(name);
     bytes_.bytes(&at.st_size, sizeof at.st_size);
-    add_bytes(bytes_, path);
+    io::add_bytes(bytes_, path);
   }
 
   InputRecord& record_;
@@ -122,7 +100,7 @@ std::vector<std::string> input_paths(const Plan& plan) {
 
 Hash128 file_hash(const std::string& file) {
   Hasher hasher;
-  add_bytes(hasher, file);
+  io::add_bytes(hasher, file);
   return hasher.hash();
 }
 

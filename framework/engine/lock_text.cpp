@@ -1,10 +1,9 @@
 /// run.lock.yaml: YAML for people and tools, of which every line stands where it must, so that it is read back byte by byte.
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/file_text.hpp"
 #include "plumb/engine/quoted.hpp"
 #include "plumb/engine/run_record.hpp"
 #include "plumb/pipeline/foreign_file.hpp"
@@ -145,9 +144,8 @@ std::optional<std::vector<FileRecord>> files_of_lock(const std::string& text) {
 }
 
 RunRecord read_lock(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw Error(file.string() + ": cannot be read; give the run.lock.yaml of a run");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  constexpr std::uint64_t most = std::uint64_t{64} << 20;
+  const std::string text(io::FileBytes(file, most, "record of a run").view());
   if (!text.starts_with(pipeline::lock_first_line)) throw Error(file.string() + ": is no record of a run; give the run.lock.yaml of one");
   Reader reader(file.string(), text);
   reader.take(pipeline::lock_first_line);

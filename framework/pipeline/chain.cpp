@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "plumb/data/io/fence.hpp"
+#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_text.hpp"
+#include "plumb/data/io/regular_file.hpp"
 #include "plumb/pipeline/foreign_file.hpp"
 #include "plumb/pipeline/overlay.hpp"
 
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_chain = 16;
-constexpr std::uintmax_t largest_file = 4 << 20;
+constexpr std::uint64_t largest_file = 1 << 20;
 
 std::optional<std::string> text_of(const fs::path& file, const fs::path& pipeline,
                                    const Origin& asked, Diagnostics& diagnostics) {
@@ -23,21 +24,20 @@ std::optional<std::string> text_of(const fs::path& file, const fs::path& pipelin
   if (!io::inside_of_fence(file))
     return refuse({"'" + file.string() + "' lies outside of the folders of the pipeline and presets that were given, and --untrusted reads nothing else.",
                    "Name the pipeline itself and lay the preset over it (--preset), or leave --untrusted out."});
+  const std::string name = "'" + file.string() + "' ";
   if (fs::is_directory(file, error)) return refuse(foreign_folder(file));
-  if (!fs::exists(file, error))
-    return refuse({"there is no file '" + file.string() + "'.", cure_for_missing(file, pipeline)});
-  if (!fs::is_regular_file(file, error)) return refuse({"'" + file.string() + "' is no regular file.", "Give the path of a pipeline (YAML)."});
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::file_size(file, error) > largest_file) {
-    diagnostics.add(
-        asked, "'" + file.string() +
-                   (stream ? "' is larger than any pipeline (4 MiB)." : "' cannot be opened."));
-    return std::nullopt;
+  if (!fs::exists(file, error)) return refuse({"there is no file " + name.substr(0, name.size() - 1) + ".", cure_for_missing(file, pipeline)});
+  if (const std::string other = io::other_than_file(file); !other.empty())
+    return refuse({name + "is " + other + ", not a pipeline.", "Give the path of a pipeline (YAML)."});
+  std::string text, why;
+  try {
+    text = io::FileBytes(file, largest_file, "pipeline").view();
+  } catch (const Error& e) {
+    why = std::string(e.what()).substr(file.string().size() + 2) + ".";  // behind "FILE: "
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (const auto fault = foreign_file(file, text.view())) return refuse(*fault);
-  return text.str();
+  if (!why.empty()) return refuse({name + why, ""});
+  if (const auto fault = foreign_file(file, text)) return refuse(*fault);
+  return text;
 }
 
 /// Appends `file` after what it extends; a preset is laid over `pipeline`. False when something cannot be read.

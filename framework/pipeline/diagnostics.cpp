@@ -1,6 +1,9 @@
 #include "plumb/pipeline/diagnostics.hpp"
 
 #include <algorithm>
+#include <tuple>
+
+#include "plumb/data/io/plain_text.hpp"
 
 namespace plumb {
 
@@ -10,69 +13,84 @@ std::string Origin::text() const {
 }
 
 std::string Diagnostic::text() const {
-  std::string all = origin.text() + ": " + sentence;
-  if (!excerpt.empty()) all += "\n" + excerpt;
-  if (!hint.empty()) all += "\n  " + hint;
+  std::string all = io::plain(origin.text()) + ": " + io::plain(sentence);
+  if (!excerpt.empty()) all += "\n" + io::plain_lines(excerpt);
+  if (!hint.empty()) all += "\n  " + io::plain(hint);
   return all;
 }
 
 namespace {
 
-std::string text_of(const std::vector<Diagnostic>& diagnostics) {
+constexpr std::size_t most_told = 40;  // as many as anybody reads
+
+std::string text_of(const std::vector<Diagnostic>& diagnostics, bool open) {
   std::string all;
-  for (const Diagnostic& d : diagnostics) all += (all.empty() ? "" : "\n") + d.text();
+  const std::size_t told = std::min(diagnostics.size(), most_told);
+  for (std::size_t k = 0; k < told; ++k) all += (all.empty() ? "" : "\n") + diagnostics[k].text();
+  const std::size_t left = diagnostics.size() - told;
+  if (left > 0) all += "\nand " + std::to_string(left) + " more" + (open ? ", and what was not looked for behind so many" : "") + ".";
   return all;
 }
 
 }  // namespace
 
-PipelineError::PipelineError(std::vector<Diagnostic> diagnostics)
-    : Error(text_of(diagnostics)), diagnostics_(std::move(diagnostics)) {}
+PipelineError::PipelineError(std::vector<Diagnostic> diagnostics, bool open)
+    : Error(text_of(diagnostics, open)), diagnostics_(std::move(diagnostics)) {}
 
 namespace pipeline {
 namespace {
 
+constexpr std::size_t most_kept = 100;    // mistakes; then nothing more is looked for
+constexpr std::size_t most_words = 1000;  // [byte] of a sentence
+constexpr std::size_t most_shown = 160;   // [byte] of a line
+
 /// The line with a caret under byte `column` (from 1).
-std::string excerpt_of(const std::string& line, int number, int column) {
-  constexpr std::size_t longest = 160;
+std::string excerpt_of(std::string_view line, int number, int column) {
+  const std::size_t before = std::min(static_cast<std::size_t>(std::max(column - 1, 0)), line.size());
+  if (before >= most_shown) return "";
   const std::string margin = std::to_string(number);
   std::string below;
-  for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(column) && k < line.size(); ++k) {
-    const auto byte = static_cast<unsigned char>(line[k]);
-    if (byte == '\t')
-      below += '\t';
-    else if ((byte & 0xC0) != 0x80)
-      below += ' ';  // one blank per character, not per byte
+  for (const unsigned char byte : io::plain_lines(line.substr(0, before))) {
+    if (byte == '\t') below += '\t';
+    else if ((byte & 0xC0) != 0x80) below += ' ';  // one blank per character, not per byte
   }
-  if (line.size() > longest && static_cast<std::size_t>(column) > longest) return "";
-  return "  " + margin + " | " + line.substr(0, longest) + "\n  " +
+  return "  " + margin + " | " + io::plain_lines(line.substr(0, most_shown)) + "\n  " +
          std::string(margin.size(), ' ') + " | " + below + "^";
+}
+
+/// A long sentence without its middle: what it is about is said first, what is wrong with it last.
+std::string shortened(std::string text) {
+  constexpr std::size_t end = 300;
+  if (text.size() > most_words) text.replace(most_words - end, text.size() - most_words, " ... ");
+  return text;
+}
+
+std::string_view line_of(std::string_view text, int number) {
+  for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find('\n'));
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
 }
 
 }  // namespace
 
 void Diagnostics::read(const std::string& file, std::string_view text) {
-  if (lines_.count(file)) return;
-  files_.push_back(file);
-  auto& lines = lines_[file];
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string line(text.substr(0, end));
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    lines.push_back(std::move(line));
-    if (end == std::string_view::npos) break;
-    text.remove_prefix(end + 1);
-  }
+  if (texts_.try_emplace(file, text).second) files_.push_back(file);
+}
+
+std::string Diagnostics::excerpt_at(const Origin& origin) const {
+  const auto at = texts_.find(origin.file);
+  if (at == texts_.end() || origin.line < 1) return "";
+  const std::string_view line = line_of(at->second, origin.line);
+  return line.empty() ? "" : excerpt_of(line, origin.line, origin.column);
 }
 
 void Diagnostics::add(const Origin& origin, std::string sentence, std::string hint) {
+  sentence = shortened(std::move(sentence));
   for (const Diagnostic& d : list_)
     if (d.sentence == sentence && d.origin.text() == origin.text()) return;
-  Diagnostic d{origin, std::move(sentence), "", std::move(hint)};
-  const auto at = lines_.find(origin.file);
-  if (at != lines_.end() && origin.line >= 1 && origin.line <= static_cast<int>(at->second.size()))
-    d.excerpt = excerpt_of(at->second[origin.line - 1], origin.line, origin.column);
-  list_.push_back(std::move(d));
+  list_.push_back({origin, std::move(sentence), excerpt_at(origin), shortened(std::move(hint))});
+  if (list_.size() >= most_kept) raise();
 }
 
 void Diagnostics::raise() const {
@@ -84,7 +102,7 @@ void Diagnostics::raise() const {
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
-  throw PipelineError(std::move(sorted));
+  throw PipelineError(std::move(sorted), list_.size() >= most_kept);
 }
 
 namespace {
@@ -110,12 +128,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view name, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 80;
+  constexpr std::size_t longest = 80, most_work = 2000000;  // letters held against letters: some milliseconds
   if (name.empty() || name.size() > longest) return "";
+  std::size_t work = 0;
   std::string best;
   std::size_t least = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
   for (const std::string& candidate : known) {
-    if (candidate.size() > longest) continue;
+    const auto [shorter, longer] = std::minmax({candidate.size(), name.size()});
+    if (candidate.size() > longest || longer - shorter >= least) continue;
+    if ((work += shorter * longer) > most_work) break;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < least) least = distance, best = candidate;
   }

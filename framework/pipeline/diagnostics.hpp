@@ -19,15 +19,16 @@ struct Diagnostic {
   std::string
       hint;  ///< "Did you mean 'leaf' [length, 0.01 m to 100 m]?  Known: leaf."; may be empty
 
-  /// "file:line:col: sentence", the excerpt and the hint, each on lines of their own.
+  /// "file:line:col: sentence", the excerpt and the hint, each on lines of their own, as io::plain() shows them.
   std::string text() const;
 };
 
-/// A pipeline that does not hold together. `what()` is the text of every diagnostic, in the order
-/// of the files and lines.
+/// A pipeline that does not hold together. `what()` is the text of the first diagnostics, as many as anybody reads, in the order
+/// of the files and lines, and the number of the others.
 class PipelineError : public Error {
  public:
-  explicit PipelineError(std::vector<Diagnostic> diagnostics);
+  /// `open`: not all mistakes were looked for.
+  explicit PipelineError(std::vector<Diagnostic> diagnostics, bool open = false);
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
 
  private:
@@ -39,17 +40,19 @@ namespace pipeline {
 /// Collects mistakes and remembers the files' texts, to show the lines in question.
 class Diagnostics {
  public:
-  /// Makes the lines of `file` known.
+  /// Makes the text of `file` known.
   void read(const std::string& file, std::string_view text);
-  /// One mistake. The same one at the same place is kept once.
+  /// One mistake. The same one at the same place is kept once. Throws PipelineError when there are too many to go on: what is all wrong is no pipeline, and to
+  /// look for every mistake in it could take for ever.
   void add(const Origin& origin, std::string sentence, std::string hint = "");
   bool empty() const { return list_.empty(); }
   /// Throws PipelineError if there is any.
   void raise() const;
 
  private:
+  std::string excerpt_at(const Origin& origin) const;
   std::vector<std::string> files_;  ///< in the order they were read
-  std::map<std::string, std::vector<std::string>> lines_;
+  std::map<std::string, std::string> texts_;
   std::vector<Diagnostic> list_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plumb/data/io/file_kind.hpp"
+#include "plumb/data/io/file_text.hpp"
 
 namespace plumb::pipeline {
 namespace fs = std::filesystem;
@@ -24,7 +25,34 @@ std::string stem_of(const fs::path& file) {
   return (extension == ".yaml" || extension == ".yml" ? file.stem() : file.filename()).string();
 }
 
+/// What stands at the beginning of a line before its key: a byte-order mark, a bracket, quotes.
+std::string_view without_marks(std::string_view line) {
+  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  line.remove_prefix(std::min(line.find_first_not_of("{\"' "), line.size()));
+  return line;
+}
+
+bool begins_with(std::string_view line, const std::string& key) {
+  if (!line.starts_with(key)) return false;
+  line.remove_prefix(key.size());
+  line.remove_prefix(std::min(line.find_first_not_of("\"' \t"), line.size()));
+  return line.starts_with(':');
+}
+
 }  // namespace
+
+bool has_key(std::string_view text, const std::vector<std::string>& keys) {
+  bool blank = true;
+  io::Lines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (!line.starts_with(' '))
+      for (const std::string& key : keys)
+        if (begins_with(without_marks(line), key)) return true;
+    const auto first = line.find_first_not_of(" \t");
+    blank = blank && (first == line.npos || line[first] == '#');
+  }
+  return blank;
+}
 
 std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
   const std::string name = "'" + file.string() + "' is ";
@@ -32,7 +60,10 @@ std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
     return Fault{name + "the record of a run, not a pipeline.",
                  "Give the pipeline that was run; or repeat the run itself: plumb run --locked " + file.string() + " -o DIR."};
   const std::string kind = io::kind_of_content(text);
-  if (kind.empty() || kind == "a pipeline") return std::nullopt;
+  if (kind.empty() || kind == "a pipeline") {
+    if (has_key(text, {"plumb", "steps", "extends", "also", "set", "add", "replace", "remove"})) return std::nullopt;
+    return Fault{name + "no pipeline: no line of it begins with 'plumb:', 'steps:' or 'extends:'.", "Give the YAML file of a pipeline."};
+  }
   if (kind == "a JSON Schema")
     return Fault{name + "a JSON Schema, not a pipeline.", "It is for editors; give the YAML file of a pipeline."};
   return Fault{name + kind + ", not a pipeline.",

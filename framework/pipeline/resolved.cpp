@@ -1,6 +1,7 @@
 /// The pipeline that results, as YAML, each value with the place that it came from.
 #include <algorithm>
 
+#include "plumb/data/io/plain_text.hpp"
 #include "plumb/pipeline/draft.hpp"
 
 namespace plumb::pipeline {
@@ -15,27 +16,12 @@ bool needs_quotes(const std::string& text, bool in_flow) {
     return true;
   if (text == "~" || text == "null" || text == "Null" || text == "NULL") return true;
   if (text.find(": ") != std::string::npos || text.find(" #") != std::string::npos) return true;
-  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
-    return true;
+  if (io::plain(text) != text) return true;
   return in_flow && text.find_first_of(",[]{}") != std::string::npos;
 }
 
-std::string quoted(const std::string& text) {
-  std::string all = "\"";
-  for (const unsigned char c : text) {
-    constexpr char digits[] = "0123456789ABCDEF";
-    if (c == '"' || c == '\\')
-      all += std::string("\\") + static_cast<char>(c);
-    else if (c < 0x20 || c == 0x7F)
-      all += std::string("\\x") + digits[c >> 4] + digits[c & 15];
-    else
-      all += static_cast<char>(c);
-  }
-  return all + "\"";
-}
-
 std::string scalar(const std::string& text, bool was_quoted, bool in_flow) {
-  return was_quoted || needs_quotes(text, in_flow) ? quoted(text) : text;
+  return was_quoted || needs_quotes(text, in_flow) ? io::plain_in_quotes(text) : text;
 }
 
 /// As plumb::written, but so that it reads back as the same value.

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <sstream>
+#include <unordered_map>
 
 #include "plumb/pipeline/syntax.hpp"
 
@@ -46,11 +47,13 @@ std::vector<std::string> Node::keys() const {
   return all;
 }
 std::string Node::shown() const {
+  constexpr std::size_t longest = 200;
+  const std::string begin = text.size() > longest ? text.substr(0, longest) + "..." : text;
   switch (kind) {
     case Kind::none:
       return "nothing";
     case Kind::scalar:
-      return quoted ? "the text \"" + text + "\"" : "'" + text + "'";
+      return quoted ? "the text \"" + begin + "\"" : "'" + begin + "'";
     case Kind::list:
       return "a list";
     case Kind::map:
@@ -62,15 +65,24 @@ std::string Node::shown() const {
 namespace {
 
 constexpr std::size_t most_nodes = 20000;
+constexpr std::size_t most_repeated = 1 << 20;  // [byte] that aliases may stand for
 constexpr std::size_t deepest = 64;
 
 struct Stop {};  // the tree cannot be gone on with; the diagnostic is written
 
-std::size_t size_of(const Node& node) {
-  std::size_t n = 1;
-  for (const Node& item : node.items) n += size_of(item);
-  for (const Entry& entry : node.entries) n += size_of(entry.value);
-  return n;
+struct Size {
+  std::size_t nodes = 0, bytes = 0;
+};
+
+/// Adds what a copy of `node` takes.
+void add_size(const Node& node, Size& size) {
+  ++size.nodes;
+  size.bytes += node.text.size();
+  for (const Node& item : node.items) add_size(item, size);
+  for (const Entry& entry : node.entries) {
+    size.bytes += entry.key.size();
+    add_size(entry.value, size);
+  }
 }
 
 void move_to(Node& node, const Origin& origin) {
@@ -106,7 +118,7 @@ class Builder : public YAML::EventHandler {
     if (expects_key()) stop(mark, "an alias cannot be a key.");
     const auto at = anchors_.find(anchor);
     if (at == anchors_.end()) stop(mark, "an alias cannot stand inside of what it names.");
-    count(mark, size_of(at->second));
+    count(origin(mark), at->second);
     Node node = at->second;
     move_to(node, origin(mark));
     attach(std::move(node), 0);
@@ -143,20 +155,25 @@ class Builder : public YAML::EventHandler {
     YAML::anchor_t anchor;
     bool has_key = false, in_brackets = false;
     Entry key;
+    std::unordered_map<std::string, Origin> keys;  ///< of a map, where each is written
   };
 
   Origin origin(const YAML::Mark& mark) const { return {file_, mark.line + 1, mark.column + 1}; }
   bool expects_key() const {
     return !open_.empty() && open_.back().node.is_map() && !open_.back().has_key;
   }
-  [[noreturn]] void stop(const YAML::Mark& mark, const char* sentence) {
-    diagnostics_.add(origin(mark), sentence);
+  [[noreturn]] void stop(const Origin& at, const char* sentence) {
+    diagnostics_.add(at, sentence);
     throw Stop{};
   }
-  void count(const YAML::Mark& mark, std::size_t more) {
-    nodes_ += more;
-    if (nodes_ > most_nodes)
-      stop(mark, "more than 20000 values once aliases are expanded; a pipeline is smaller.");
+  [[noreturn]] void stop(const YAML::Mark& mark, const char* sentence) { stop(origin(mark), sentence); }
+  /// Counts what is to be copied, for an alias or from one, before it is.
+  void count(const Origin& at, const Node& repeated) {
+    add_size(repeated, repeated_);
+    if (nodes_ + repeated_.nodes > most_nodes)
+      stop(at, "more than 20000 values once aliases are expanded; a pipeline is smaller.");
+    if (repeated_.bytes > most_repeated)
+      stop(at, "more than 1 MiB of text once aliases are expanded; a pipeline is smaller.");
   }
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
@@ -182,11 +199,11 @@ class Builder : public YAML::EventHandler {
   }
   void attach(Node node, YAML::anchor_t anchor) {
     const Origin at = node.origin;
-    if (++nodes_ > most_nodes) {
-      diagnostics_.add(at, "more than 20000 values; a pipeline is smaller.");
-      throw Stop{};
+    if (++nodes_ + repeated_.nodes > most_nodes) stop(at, "more than 20000 values; a pipeline is smaller.");
+    if (anchor) {
+      count(at, node);
+      anchors_[anchor] = node;
     }
-    if (anchor) anchors_[anchor] = node;
     if (open_.empty()) {
       root_ = std::move(node);
       return;
@@ -202,9 +219,9 @@ class Builder : public YAML::EventHandler {
     if (entry.key == "<<") {
       diagnostics_.add(entry.origin,
                        "'<<' does not merge maps here; write the keys out, or use an overlay.");
-    } else if (const Entry* first = top.node.find(entry.key)) {
+    } else if (const auto [first, is_new] = top.keys.try_emplace(entry.key, entry.origin); !is_new) {
       diagnostics_.add(entry.origin, "'" + entry.key + "' is written twice.",
-                       "First at " + first->origin.text() + ".");
+                       "First at " + first->second.text() + ".");
     } else {
       top.node.entries.push_back(std::move(entry));
     }
@@ -215,14 +232,33 @@ class Builder : public YAML::EventHandler {
   std::vector<Open> open_;
   std::map<YAML::anchor_t, Node> anchors_;
   std::size_t nodes_ = 0;
+  Size repeated_;  ///< by aliases
   Node root_;
 };
+
+/// Where a line opens more brackets than any tree has: the parser would hold all of them before it says of one.
+std::optional<Origin> too_many_brackets(const std::string& text, const std::string& file) {
+  constexpr int most = 1000;
+  int line = 1, column = 0, depth = 0;
+  for (const char c : text) {
+    ++column;
+    if (c == '\n') ++line, column = 0, depth = 0;
+    else if (c == '[' || c == '{') ++depth;
+    else if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (depth > most) return Origin{file, line, column};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
                                Diagnostics& diagnostics) {
   diagnostics.read(file, text);
+  if (const auto place = too_many_brackets(text, file)) {
+    diagnostics.add(*place, "nested more than 64 deep.");
+    return std::nullopt;
+  }
   std::istringstream stream(text);
   Builder builder(file, diagnostics);
   const auto at = [&](const YAML::Mark& mark) {

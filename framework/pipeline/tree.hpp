@@ -46,8 +46,8 @@ struct Entry {
 };
 
 /// Reads one YAML document. Refused, with a diagnostic: duplicate keys, `<<`, tags, keys that are
-/// not scalars, several documents, and more than 20,000 nodes once aliases are expanded. What an
-/// alias stands for gets the place of its use. Returns nothing when there is no tree to go on with.
+/// not scalars, several documents, and more than 20,000 nodes or 1 MiB more text than was given once
+/// aliases are expanded. What an alias stands for gets the place of its use. Returns nothing when there is no tree to go on with.
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
                                Diagnostics& diagnostics);
 

@@ -138,7 +138,7 @@ StepDescription step_of(const json& j) {
 
 }  // namespace
 
-std::string step_json(const StepDescription& step) { return to_json(step).dump(2); }
+std::string step_json(const StepDescription& step) { return to_json(step).dump(2, ' ', true, json::error_handler_t::replace); }
 
 std::string manifest_text(const Manifest& manifest) {
   json j = {{"plumb_manifest", manifest_version}, {"abi", manifest.abi_tag}, {"steps", json::array()}};

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/manifest.hpp"
 
 namespace plumb {
@@ -62,14 +61,13 @@ Registry Registry::scan(const std::vector<fs::path>& folders) {
     std::sort(modules.begin(), modules.end());
     for (const fs::path& module : modules) {
       const fs::path file = fs::path(module).replace_extension(".json");
-      std::ifstream in(file);
-      if (!in) {
+      if (!fs::exists(file)) {
         registry.refused_.push_back({module, "has no manifest beside it; `plumb_manifest` makes one, the build runs it"});
         continue;
       }
       try {
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
-        Manifest manifest = read_manifest(text, file.string());
+        constexpr std::uint64_t most = std::uint64_t{4} << 20;
+        Manifest manifest = read_manifest(std::string(io::FileBytes(file, most, "manifest").view()), file.string());
         if (manifest.abi_tag != abi_tag())
           throw Error("was built for another Plumb: it has '" + manifest.abi_tag + "', this one has '" +
                       abi_tag() + "'; build the module again with this SDK");

@@ -53,7 +53,7 @@ std::string comparison_json(const Comparison& comparison) {
   }
   return nlohmann::ordered_json{
       {"variants", comparison.variants}, {"inputs", comparison.inputs}, {"numbers", numbers}}
-      .dump();
+      .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);  // names may hold any bytes
 }
 
 std::string comparison_table(const Comparison& comparison) {

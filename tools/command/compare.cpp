@@ -10,6 +10,7 @@
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
+#include "plumb/data/io/trajectory_text.hpp"
 #include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/quoted.hpp"
@@ -188,8 +189,7 @@ void compare(const Options& options) {
         }
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
-          std::fprintf(stderr, "%s on %s: %.1f s\n", variants[v].name.c_str(),
-                       input_names[k].c_str(), result.seconds);
+          std::cerr << variants[v].name << " on " << input_names[k] << ": " << io::fixed(result.seconds, 1) << " s\n";
       } catch (const std::exception& e) {
         std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
                   << ": " << e.what() << "\n";

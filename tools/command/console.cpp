@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "plumb/data/io/plain_text.hpp"
 #include "plumb/report/weakness.hpp"
 
 namespace plumb::command {
@@ -57,20 +58,20 @@ void Console::event(const Event& event) {
   const std::lock_guard lock(mutex_);
   switch (event.kind) {
     case Event::Kind::step_begins:
-      path_ = event.step;
+      path_ = io::plain(event.step);
       items_ = event.items;
       done_ = 0;
       return draw();
     case Event::Kind::item:
-      if (event.step == path_) ++done_;  // not of one that passes its items on to this step
+      if (io::plain(event.step) == path_) ++done_;  // not of one that passes its items on to this step
       return draw();
     case Event::Kind::step_ends:
       clear();
       return log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration, path_, items_, items_ == 1 ? " " : "s", event.duration);
     case Event::Kind::pass_begins:
       clear();
-      return log_->info("{}: pass {} of at most {}", event.step, event.pass + 1, event.items);
-    case Event::Kind::note: return note(std::string(event.sentence));
+      return log_->info("{}: pass {} of at most {}", io::plain(event.step), event.pass + 1, event.items);
+    case Event::Kind::note: return note(io::plain(event.sentence));
     default: return;
   }
 }

@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/staged_folder.hpp"
+#include "plumb/data/io/plain_text.hpp"
 #include "plumb/pipeline/diagnostics.hpp"
 
 namespace plumb::command {
@@ -19,6 +20,23 @@ namespace plumb::command {
 std::vector<std::filesystem::path> plugin_path;
 
 Registry installed_steps() { return Registry::scan(Registry::standard_folders(plugin_path)); }
+
+namespace {
+
+/// All that the command says goes through here: names, paths and values of others must not steer the terminal.
+class PlainStream {
+ public:
+  explicit PlainStream(std::ostream& stream) : stream_(stream), to_(stream.rdbuf()), plain_(*to_) { stream_.rdbuf(&plain_); }
+  PlainStream(const PlainStream&) = delete;
+  ~PlainStream() { stream_.rdbuf(to_); }
+
+ private:
+  std::ostream& stream_;
+  std::streambuf* to_;
+  io::PlainBuffer plain_;
+};
+
+}  // namespace
 
 }  // namespace plumb::command
 
@@ -47,6 +65,7 @@ int main(int argc, char** argv) {
     std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with -DPLUMB_ARCH= for any x86-64\n";
     return 1;
   }
+  const plumb::command::PlainStream out(std::cout), err(std::cerr);
   CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.", "plumb"};
   app.footer(
       "Start with:\n"

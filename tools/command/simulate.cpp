@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "command/command.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
 #include "simulate/names.hpp"
 #include "simulate/route.hpp"
@@ -147,9 +149,11 @@ void run(const Arguments& arguments) {
   const Made made = made_by(arguments, progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  std::printf("%s: %s (%.1f s)\n", arguments.output.string().c_str(), made.line.c_str(), seconds);
+  std::cout << arguments.output.string() << ": " << made.line << " (" << io::fixed(seconds, 1) << " s)
+";
   if (made.unsettled.empty()) return;
-  std::fprintf(stderr, "plumb: %s\n", made.unsettled.c_str());
+  std::cerr << "plumb: " << made.unsettled << "
+";
   throw CLI::RuntimeError(exit_unsettled);
 }
 

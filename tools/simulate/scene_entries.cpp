@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "plumb/data/io/file_text.hpp"
 #include "simulate/indoor_scene.hpp"
 #include "simulate/route.hpp"
 
@@ -19,15 +20,19 @@ std::vector<std::string> shipped_scenes() {
   return names;
 }
 
+std::string text_of(const std::filesystem::path& file) try {
+  constexpr std::uint64_t most = 64 << 10;
+  return std::string(io::FileBytes(file, most, "scene").view());
+} catch (const Error& e) {
+  throw Error(std::string(e.what()) + "; name a scene file or one of: " + suggestion("", shipped_scenes()));
+}
+
 }  // namespace
 
 std::vector<SceneEntry> scene_entries(const std::filesystem::path& file) {
   YAML::Node root;
   try {
-    root = YAML::LoadFile(file.string());
-  } catch (const YAML::BadFile&) {
-    throw Error(file.string() + ": cannot be opened; name a scene file or one of: " +
-                suggestion("", shipped_scenes()));
+    root = YAML::Load(text_of(file));
   } catch (const YAML::Exception& e) {
     throw Error(place_of(file, e.mark) + ": " + e.msg + "; correct the YAML");
   }

@@ -53,6 +53,22 @@ bool gives_a_sound_cloud(const std::filesystem::path& file, std::size_t bytes) {
   }
 }
 
+TEST(DamagedCloudFile, WithAHeaderOfHugePointsTakesNoMemoryForThem) {
+  const TestFolder folder;
+  std::string names = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
+  for (int k = 0; k < 1000; ++k) (names += " a") += std::to_string(k), sizes += " 8", types += " F", counts += " 65536";
+  const std::string fields = names + " x y z\n" + sizes + " 4 4 4\n" + types + " F F F\n" + counts + " 1 1 1\n";
+  for (const char* data : {"ascii", "binary", "binary_compressed"}) {
+    const auto of = [&](const std::string& points) { return folder.write("a.pcd", fields + "WIDTH " + points + "\nHEIGHT 1\nDATA " + data + "\n"); };
+    EXPECT_EQ(read_cloud(of("0")).cloud.size(), 0u);
+    EXPECT_FALSE(gives_a_sound_cloud(of("1"), 40000)) << data;
+    EXPECT_FALSE(gives_a_sound_cloud(of("18446744073709551615"), 40000)) << data;
+  }
+  const std::string ply = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  for (const char* format : {"ascii", "binary_little_endian"})
+    EXPECT_FALSE(gives_a_sound_cloud(folder.write("a.ply", std::string("ply\nformat ") + format + " 1.0\nelement vertex 4000000000\n" + ply), 100)) << format;
+}
+
 TEST(DamagedCloudFile, CutShortAnywhereIsRefused) {
   const TestFolder folder;
   for (const auto& [name, bytes] : samples()) {

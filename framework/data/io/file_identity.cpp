@@ -3,20 +3,30 @@
 #include <sys/stat.h>
 
 #include <atomic>
-#include <fstream>
 #include <vector>
 
+#include "plumb/data/error.hpp"
+#include "plumb/data/io/regular_file.hpp"
+
 namespace plumb::io {
+
+void add_bytes(Hasher& hasher, const std::filesystem::path& file) {
+  RegularFile in(file);
+  std::vector<char> block(std::size_t{1} << 20);
+  while (const std::size_t size = in.read(block.data(), block.size())) hasher.bytes(block.data(), size);
+}
+
 namespace {
 
 std::atomic<FileIdentity> chosen = FileIdentity::status;
 
 bool add_content(Hasher& hasher, const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::vector<char> block(std::size_t{1} << 20);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
-    hasher.bytes(block.data(), static_cast<std::size_t>(in.gcount()));
-  return in.eof();
+  try {
+    add_bytes(hasher, file);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace

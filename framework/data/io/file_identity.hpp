@@ -15,6 +15,9 @@ enum class FileIdentity {
 /// For this whole process, before anything runs: `--verify-inputs` asks for content.
 void identify_files_by(FileIdentity identity);
 
+/// Adds all bytes of a regular file. Throws Error.
+void add_bytes(Hasher& hasher, const std::filesystem::path& file);
+
 /// Adds to `hasher` what the file counts by, without its name. False when it cannot be looked at. A folder counts by its status.
 bool add_identity(Hasher& hasher, const std::filesystem::path& file);
 

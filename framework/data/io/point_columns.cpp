@@ -173,6 +173,7 @@ CloudFile from_bytes(const std::filesystem::path& file, const std::vector<Column
 CloudFile from_text(const std::filesystem::path& file, const std::vector<Column>& columns,
                     Lines& lines, std::size_t words, std::size_t points) {
   const Roles roles = roles_of(file, columns);
+  if (points == 0) return {};  // then nothing says that the file can hold so many words
   Cloud cloud;
   cloud.reserve(points);
   std::vector<double> numbers(words);

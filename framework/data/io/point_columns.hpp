@@ -33,7 +33,7 @@ struct Column {
 CloudFile from_bytes(const std::filesystem::path& file, const std::vector<Column>& columns,
                      std::string_view data, std::size_t points);
 
-/// The same from text, one point a line of `words` numbers; blank lines are skipped. Throws Error
+/// The same from text, which has room for them (require_room), one point a line of `words` numbers; blank lines are skipped. Throws Error
 /// with the line: fewer or more words than that, no number, fewer lines than points. Leaves `lines`
 /// behind the last point.
 CloudFile from_text(const std::filesystem::path& file, const std::vector<Column>& columns,

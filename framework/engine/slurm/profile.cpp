@@ -1,10 +1,10 @@
 #include "plumb/engine/slurm/profile.hpp"
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "plumb/data/amount.hpp"
+#include "plumb/data/io/file_text.hpp"
+#include "plumb/pipeline/foreign_file.hpp"
 #include "plumb/pipeline/value.hpp"
 
 namespace plumb {
@@ -35,6 +35,17 @@ void set(ExecutorProfile& profile, const std::string& name, const ParameterValue
   if (name == "poll") profile.poll = std::get<double>(value);
 }
 
+/// Refuses what is plainly none, without a word of what is in it.
+std::string profile_text(const std::filesystem::path& file, const std::vector<std::string>& known) try {
+  constexpr std::uint64_t most = 1 << 20;
+  std::string text(io::FileBytes(file, most, "executor profile").view());
+  if (!pipeline::has_key(text, known))
+    throw Error(file.string() + ": is no executor profile: no line of it begins with one of its keys, which are " + pipeline::joined(known));
+  return text;
+} catch (const Error& e) {
+  throw Error(std::string("--executor-profile ") + e.what());
+}
+
 }  // namespace
 
 const std::vector<ParameterDescription>& profile_keys() {
@@ -55,17 +66,13 @@ const std::vector<ParameterDescription>& profile_keys() {
 
 ExecutorProfile read_profile(const std::filesystem::path& file) {
   ExecutorProfile profile;
-  std::ifstream in(file);
-  if (!in) throw Error("--executor-profile " + file.string() + ": there is no such file, or it cannot be read");
-  std::ostringstream text;
-  text << in.rdbuf();
-  pipeline::Diagnostics diagnostics;
-  diagnostics.read(file.string(), text.str());
-  const auto tree = pipeline::parse_yaml(text.str(), file.string(), diagnostics);
-  diagnostics.raise();
-  if (tree && !tree->is_map()) diagnostics.add(tree->origin, "an executor profile is a map of keys and values.");
   std::vector<std::string> known;
   for (const ParameterDescription& one : profile_keys()) known.push_back(one.name);
+  const std::string text = profile_text(file, known);
+  pipeline::Diagnostics diagnostics;
+  const auto tree = pipeline::parse_yaml(text, file.string(), diagnostics);
+  diagnostics.raise();
+  if (tree && !tree->is_map()) diagnostics.add(tree->origin, "an executor profile is a map of keys and values.");
   if (tree)
     for (const pipeline::Entry& entry : tree->entries) {
       const ParameterDescription* description = nullptr;

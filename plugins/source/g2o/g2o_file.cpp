@@ -161,9 +161,12 @@ class Reader {
         refuse("the edge goes from vertex " + std::to_string(edge.from) + " to itself: remove it");
       graph.relations.relative.push_back(edge.relation);
     }
+    std::vector<bool> is_fixed(vertices_.size());
     for (const Fixed& fixed : fixed_) {
       line_ = fixed.line;
       const std::uint32_t i = index_of(fixed.id, graph.relations.ids);
+      if (is_fixed[i]) continue;  // one that is fixed twice stays no more firmly
+      is_fixed[i] = true;
       graph.relations.absolute.push_back(
           {i, graph.poses.T_world_segment[i], 1e12 * Matrix6d::Identity()});
     }

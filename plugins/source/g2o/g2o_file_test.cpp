@@ -94,6 +94,14 @@ TEST_F(G2oFile, HoldsFixedVerticesWhereTheyAre) {
   EXPECT_EQ(graph.relations.absolute[1].T_world_i.translation, Eigen::Vector3d(4, 5, 0));
 }
 
+TEST_F(G2oFile, HoldsAVertexThatIsFixedManyTimesOnce) {
+  std::string all = "VERTEX_SE2 5 1 2 3\nVERTEX_SE2 6 4 5 6\nFIX 6";
+  for (int k = 0; k < 1000; ++k) all += " 5";
+  const auto graph = read(all + "\nFIX 6\n");
+  ASSERT_EQ(graph.relations.absolute.size(), 2u);
+  EXPECT_EQ(graph.relations.absolute[0].i, 1u);
+}
+
 TEST_F(G2oFile, IsRefusedWithItsLineWhenAVertexIsUnknown) {
   const std::string vertex = "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n";
   EXPECT_THAT(refusal(vertex + "EDGE_SE3:QUAT 0 9 0 0 0 0 0 0 1" + identity_triangle),

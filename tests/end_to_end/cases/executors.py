@@ -122,7 +122,7 @@ def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
     told("chunk: 0\n", "profile.yaml:1:8:", "'chunk'", "1")
     told("poll: 3\n", "profile.yaml:1:7:", "no unit")
     told("memory: much\n", "profile.yaml:1:9:", "memory much", "4GiB")
-    refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "there is no such file")
+    refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "none.yaml: cannot be opened (No such file or directory)")
     refused(plumb(*good, "--executor-profile", profile, code=WRONG_INPUT), "--executor slurm, which is not given")
     refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--isolate")
     refused(plumb(*good, "--isolate", "--item-memory", "10MiB", code=WRONG_INPUT), "--item-memory 10MiB", "64MiB or more")

@@ -153,7 +153,7 @@ def test_a_file_that_is_no_lock_or_half_of_one(folder):
     refuse(lock, "no record of a run")
     refused(repeat(CASCADE, folder / "no", code=WRONG_INPUT), "no record of a run")
     refused(repeat(folder, folder / "no", code=WRONG_INPUT), "run.lock.yaml")
-    refused(repeat(folder / "none", folder / "no", code=WRONG_INPUT), "cannot be read")
+    refused(repeat(folder / "none", folder / "no", code=WRONG_INPUT), "cannot be opened (No such file or directory)")
     nothing_left(folder / "no")
 
 
