@@ -42,8 +42,8 @@ class Diagnostics {
  public:
   /// Makes the text of `file` known.
   void read(const std::string& file, std::string_view text);
-  /// One mistake. The same one at the same place is kept once. Throws PipelineError when there are too many to go on: what is all wrong is no pipeline, and to
-  /// look for every mistake in it could take for ever.
+  /// One mistake. The same one at the same place is kept once. Throws PipelineError when there are too many to go on: what is
+  /// all wrong is no pipeline, and to look for every mistake in it could take for ever.
   void add(const Origin& origin, std::string sentence, std::string hint = "");
   bool empty() const { return list_.empty(); }
   /// Throws PipelineError if there is any.

@@ -14,8 +14,8 @@ namespace plumb::pipeline {
 /// The first line of every run.lock.yaml.
 inline constexpr const char* lock_first_line = "# A run of Plumb: what made the files beside this one.";
 
-/// Whether a line of `text` begins with one of `keys` and a colon, or all of it is blank: what begins so is shown when it is wrong, and nothing of other files,
-/// which a pipeline from elsewhere may name to have them printed.
+/// Whether a line of `text` begins with one of `keys` and a colon, or all of it is blank: what begins so is shown when it is
+/// wrong, and nothing of other files, which a pipeline from elsewhere may name to have them printed.
 bool has_key(std::string_view text, const std::vector<std::string>& keys);
 
 /// What `file` is and what to give instead, when its text is plainly no pipeline's. Says nothing of what is in it.

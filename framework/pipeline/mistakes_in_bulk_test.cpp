@@ -51,8 +51,8 @@ TEST(Mistakes, ThatAreManyAreToldInPart) {
     EXPECT_THAT(all, EndsWith("\nand 60 more, and what was not looked for behind so many."));
     return all;
   };
-  EXPECT_THAT(of_kind("plumb: 1\nsteps:\n" + repeated(4500, [](const auto& k) { return "  step" + k + ": {use: foo.bar" + k + ", from: no" + k + "}\n"; })),
-              HasSubstr("a.yaml:3:16: step 'step0': no module offers 'foo.bar0'."));
+  const auto step = [](const std::string& k) { return "  step" + k + ": {use: foo.bar" + k + ", from: no" + k + "}\n"; };
+  EXPECT_THAT(of_kind("plumb: 1\nsteps:\n" + repeated(4500, step)), HasSubstr("a.yaml:3:16: step 'step0': no module offers 'foo.bar0'."));
   of_kind("plumb: 1\nsteps: [" + repeated(18000, [](const auto&) { return std::string("!t x, "); }) + "]\n");
   of_kind("plumb: 1\n" + repeated(18000, [](const auto&) { return std::string("steps: 1\n"); }));
   of_kind("plumb: 1\nsteps: {}\n" + repeated(18000, [](const auto& k) { return "key" + k + ": 1\n"; }));

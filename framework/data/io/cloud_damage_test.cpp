@@ -65,8 +65,10 @@ TEST(DamagedCloudFile, WithAHeaderOfHugePointsTakesNoMemoryForThem) {
     EXPECT_FALSE(gives_a_sound_cloud(of("18446744073709551615"), 40000)) << data;
   }
   const std::string ply = "property float x\nproperty float y\nproperty float z\nend_header\n";
-  for (const char* format : {"ascii", "binary_little_endian"})
-    EXPECT_FALSE(gives_a_sound_cloud(folder.write("a.ply", std::string("ply\nformat ") + format + " 1.0\nelement vertex 4000000000\n" + ply), 100)) << format;
+  for (const std::string format : {"ascii", "binary_little_endian"}) {
+    const std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 4000000000\n" + ply;
+    EXPECT_FALSE(gives_a_sound_cloud(folder.write("a.ply", bytes), bytes.size())) << format;
+  }
 }
 
 TEST(DamagedCloudFile, CutShortAnywhereIsRefused) {

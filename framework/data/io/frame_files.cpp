@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <unordered_set>
 
 #include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/data/io/regular_file.hpp"
 
 namespace plumb::io {
 
@@ -34,22 +36,29 @@ std::vector<FrameFile> files_in(const fs::path& folder, const std::vector<std::s
 
 namespace {
 
+void require_frame(const fs::path& list, std::size_t line, const fs::path& path, const std::string& name) {
+  require_inside_of_fence(path);
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return;
+  const std::string other = other_than_file(path);
+  const std::string why = other.empty() ? " is missing: paths are relative to the folder that holds the list"
+                                        : " is " + other + ", not a regular file: list files";
+  refuse(list, line, "frame " + in_quotes(name) + why);
+}
+
 std::vector<FrameFile> listed_in(const fs::path& list, const fs::path& folder) {
   const FileBytes bytes(list);
   Lines lines(bytes.view());
   std::vector<FrameFile> files;
+  std::unordered_set<std::string> seen;  // a way out and back lists its frames twice
   for (std::string_view line; lines.next(line);) {
     while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
     while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
     if (line.empty() || line.front() == '#') continue;
     const std::string name(line);
-    require_inside_of_fence(folder / name);
-    std::error_code error;
-    if (!fs::is_regular_file(folder / name, error))
-      refuse(list, lines.number(),
-             "frame " + in_quotes(name) +
-                 " is missing: paths are relative to the folder that holds the list");
-    files.push_back({folder / name, name});
+    const fs::path path = folder / name;
+    if (seen.insert(name).second) require_frame(list, lines.number(), path, name);
+    files.push_back({path, name});
   }
   if (files.empty()) refuse(list, "lists no frame: write one path a line");
   return files;

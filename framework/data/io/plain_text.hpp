@@ -1,6 +1,6 @@
 #pragma once
-/// Text from outside (names, values, lines of files) as a terminal may be given it: nothing in it moves the cursor, colours, turns the reading direction or
-/// is no text at all.
+/// Text from outside (names, values, lines of files) as a terminal may be given it: nothing in it moves the cursor, colours,
+/// turns the reading direction or is no text at all.
 
 #include <streambuf>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace plumb::io {
 
-/// With every control character as \x1b, every character that turns the reading direction, breaks the line or cannot be seen as \u202e, and every byte that
-/// is no UTF-8 as \xff. On one line. What is plain already stays as it is.
+/// With every control character as \x1b, every character that turns the reading direction, breaks the line or cannot be seen
+/// as \u202e, and every byte that is no UTF-8 as \xff. On one line. What is plain already stays as it is.
 std::string plain(std::string_view text);
 
 /// The same with its line ends and tabs.

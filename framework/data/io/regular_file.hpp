@@ -10,15 +10,15 @@
 
 namespace plumb::io {
 
-/// What stands there instead of a regular file: "a pipe", "a folder", "a device", "a socket". Empty for a regular file and where nothing is; links are
-/// followed. For what others open by its name, as SQLite does.
+/// What stands there instead of a regular file: "a pipe", "a folder", "a device", "a socket". Empty for a regular file and where
+/// nothing is; links are followed. For what others open by its name, as SQLite does.
 std::string other_than_file(const std::filesystem::path& file);
 
 /// A regular file, open until the end of its scope.
 class RegularFile {
  public:
-  /// `flags` as open(2) takes them; it never blocks and is closed in programs that are started. Throws Error: something else stands there, or it cannot be
-  /// opened.
+  /// `flags` as open(2) takes them; it never blocks and is closed in programs that are started. Throws Error: something else
+  /// stands there, or it cannot be opened.
   explicit RegularFile(const std::filesystem::path& file, int flags = O_RDONLY, mode_t mode = 0666);
   RegularFile(const RegularFile&) = delete;
   RegularFile& operator=(const RegularFile&) = delete;

@@ -214,6 +214,7 @@ CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
       parsed[k] = parse_scan(kind, lines[k].words);
   });
   std::vector<std::size_t> line_of;
+  log.scans.reserve(parsed.size());
   for (std::size_t k = 0; k < parsed.size(); ++k) {
     if (parsed[k].fate == Fate::whole) {
       log.scans.push_back(std::move(parsed[k].scan));

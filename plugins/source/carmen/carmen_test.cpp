@@ -273,11 +273,11 @@ TEST_F(CarmenLogs, AreRefusedWhenTheirPackedDataAreCutOrDamaged) {
 
 TEST_F(CarmenLogs, AreRefusedWhenTheirPackedDataHoldFarMoreThanALog) {
   const std::string same(std::size_t{64} << 20, 'a');
-  EXPECT_THAT(refused(bzipped(same)), HasSubstr("unpacks to more than 16 MiB"));
+  EXPECT_THAT(refused(bzipped(same)), HasSubstr("unpacks to more than 8 MiB"));
   EXPECT_THAT(refused(gzipped(same)), HasSubstr("if it is a log, unpack it with gzip -d and give that"));
   std::string pieces;  // many small streams
   for (int k = 0; k < 40; ++k) pieces += bzipped(std::string(1 << 20, 'b'));
-  EXPECT_THAT(refused(pieces), HasSubstr("unpacks to more than 16 MiB"));
+  EXPECT_THAT(refused(pieces), HasSubstr("unpacks to more than 8 MiB"));
   std::string empty = bzipped(two_scans);  // and streams without anything
   for (int k = 0; k < 2000; ++k) empty += bzipped("");
   EXPECT_EQ(read(empty).trajectory.stamps, read(two_scans).trajectory.stamps);

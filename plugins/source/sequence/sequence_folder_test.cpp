@@ -196,6 +196,8 @@ TEST_F(Folder, IsRefusedWhenAListedFrameIsMissing) {
   odometry(2);
   write("frames.txt", "frames/000.pcd\nframes/009.pcd\n");
   EXPECT_THAT(refusal(), HasSubstr("frames.txt:2: frame 'frames/009.pcd' is missing"));
+  write("frames.txt", "frames/000.pcd\nframes/000.pcd\nframes\n");
+  EXPECT_THAT(refusal(), HasSubstr("frames.txt:3: frame 'frames' is a folder, not a regular file"));
 }
 
 }  // namespace
