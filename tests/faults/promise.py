@@ -4,6 +4,8 @@ import re
 from world import beside, blobs_in, results_in, run, unfinished_in, users_loss
 from scenarios import verify
 
+DONE, WRONG_INPUT, STEP_FAILED, IN_PLACE = 0, 1, 3, 4  # the last: the results are in place, and something is to be said of them
+
 NO_SENTENCE = re.compile(r"(std::|terminate called|basic_|what\(\)|filesystem error|bad_alloc|^plumb: .{0,25}$|Segmentation)", re.MULTILINE)
 
 
@@ -11,7 +13,7 @@ def sentence(said):
     """The exit and what is said of it."""
     if said.code is None:
         return ["it hangs"]
-    if said.code not in (0, 1, 3):
+    if said.code not in (DONE, WRONG_INPUT, STEP_FAILED, IN_PLACE):
         return [f"exit {said.code}"]
     wrong = []
     lines = said.err.strip().splitlines()
@@ -31,7 +33,7 @@ def results(now, old, new, whole):
         there = now.get(folder)
         if whole:
             if there != new.get(folder):
-                wrong.append("exit 0, but the results are not whole")
+                wrong.append("the exit says that the results are in place, and they are not whole")
         elif there is None:
             if folder in old:
                 wrong.append("the old results are gone")
