@@ -29,9 +29,10 @@ bool locked(int lock, int how) {
 fs::path beside(const fs::path& file, const char* what) { return file.string() + what; }
 fs::path sum_of(const fs::path& store) { return store / "index.sum"; }
 
+/// Also a link that leads nowhere.
 bool is_there(const fs::path& file) {
   std::error_code error;
-  return fs::exists(file, error);
+  return fs::symlink_status(file, error).type() != fs::file_type::not_found;
 }
 
 /// Empty when the index cannot be read.

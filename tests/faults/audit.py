@@ -17,8 +17,8 @@ from faults_test import Trial
 from world import PLUMB, make_input, renewed, run
 
 NAMES = {"open": "open openat creat opendir", "close": "close", "read": "read pread64 readv", "write": "write pwrite64 writev pwritev",
-         "rename": "rename renameat renameat2", "mkdir": "mkdir mkdirat", "link": "link linkat", "symlink": "symlink symlinkat", "chmod": "chmod fchmodat",
-         "unlink": "unlink unlinkat rmdir remove"}
+         "rename": "rename renameat renameat2", "mkdir": "mkdir mkdirat", "link": "link linkat", "symlink": "symlink symlinkat",
+         "chmod": "chmod fchmodat", "unlink": "unlink unlinkat rmdir remove"}
 KINDS = {name: kind for kind, names in NAMES.items() for name in names.split()}
 COUNTED = {"fsync", "fdatasync", "syncfs", "ftruncate", "flock", "mmap", "fchmod", "fchown"} | set(KINDS)
 # Only looked at, and partly by the C library for itself: opendir asks what it opened, realpath follows links. dup2 puts the channel of a worker to be

@@ -78,7 +78,7 @@ class Trial:
         if self.scenario.name in ("pruned", "verified"):
             wrong += promise.results(now, self.old, self.old, True)
         else:
-            wrong += promise.results(now, self.old, self.new, said.code == 0)
+            wrong += promise.results(now, self.old, self.new, said.code in (promise.DONE, promise.IN_PLACE))
         wrong += promise.surroundings(world, self.old | self.new, not killed and not dead and hit.name not in REMOVAL)
         wrong += promise.goes_on(self.scenario, self.work, world, self.new, False)
         return wrong, hit, said
