@@ -1,4 +1,4 @@
-# Sourced by demo.sh and test.sh: installs what is missing (Debian packages) and builds. Not run by itself.
+# Sourced by demo.sh, test.sh, fuzz.sh and tsan.sh: installs what is missing (Debian packages) and builds. Not run by itself.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="${PLUMB_BUILD:-$root/build}"
@@ -8,6 +8,9 @@ build_packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libyaml-cp
   libsqlite3-dev libbz2-dev zlib1g-dev libpng-dev)
 test_packages=(libpcl-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
   python3-numpy python3-scipy python3-yaml slurm-wlm munge)
+
+fuzz_packages=(clang libclang-rt-14-dev)
+build_targets=()  # all of them
 
 # install_packages NAME...: those that are not there yet.
 install_packages() {
@@ -27,7 +30,7 @@ install_packages() {
 build_all() {
   mkdir -p "$build"
   echo "building in $build (a first build takes some minutes)"
-  if ! { cmake -S "$root" -B "$build" -G Ninja "$@" && ninja -C "$build"; } >"$build/build.log" 2>&1; then
+  if ! { cmake -S "$root" -B "$build" -G Ninja "$@" && ninja -C "$build" "${build_targets[@]}"; } >"$build/build.log" 2>&1; then
     tail -n 60 "$build/build.log"
     echo "the build failed; all of it is in $build/build.log" >&2
     exit 1

@@ -1,7 +1,9 @@
 #include "plumb/plugin/manifest.hpp"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "plumb/data/error.hpp"
 
@@ -36,6 +38,14 @@ E by_place(const char* const (&names)[N], const std::string& name) {
   throw Error("'" + name + "' is unknown here");
 }
 
+/// A number with a fraction or beyond what W holds would otherwise be cut to something.
+template <class W>
+W whole_of(const json& j) {
+  const bool whole = j.is_number_integer() && !(j.is_number_unsigned() && j.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max());
+  if (!whole || !std::in_range<W>(j.get<std::int64_t>())) throw Error("a whole number is expected where something else or a larger one stands");
+  return static_cast<W>(j.get<std::int64_t>());
+}
+
 json value_json(const ParameterValue& value) {
   return std::visit(
       [](const auto& v) -> json {
@@ -49,7 +59,7 @@ ParameterValue value_of(const json& j, ParameterKind kind) {
   if (j.is_null()) return std::monostate{};
   switch (kind) {
     case ParameterKind::number: return j.get<double>();
-    case ParameterKind::integer: return j.get<std::int64_t>();
+    case ParameterKind::integer: return whole_of<std::int64_t>(j);
     case ParameterKind::boolean: return j.get<bool>();
     default: return j.get<std::string>();
   }
@@ -122,7 +132,7 @@ const Type* type_named(const json& j) {
 StepDescription step_of(const json& j) {
   StepDescription s;
   s.name = j.at("name");
-  s.version = j.at("version");
+  s.version = whole_of<int>(j.at("version"));
   s.kind = by_name(step_kinds, j.at("kind"));
   s.summary = j.at("summary");
   s.source = j.at("source");

@@ -1,7 +1,5 @@
 #include "plumb/report/ghosting.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/cloud_file.hpp"
 #include "plumb/data/trajectory_error.hpp"
+#include "plumb/engine/parallel.hpp"
 #include "plumb/geometry/search_tree.hpp"
 
 namespace plumb {
@@ -99,7 +98,7 @@ Ghosting ghosting(const std::vector<std::filesystem::path>& frames,
                   const std::vector<Pose>& estimate, const std::vector<Pose>& truth) {
   const auto revisits = revisits_of(truth);
   std::vector<double> estimated(revisits.size()), true_gaps(revisits.size());
-  tbb::parallel_for(std::size_t(0), revisits.size(), [&](std::size_t k) {
+  parallel_for(revisits.size(), [&](std::size_t k) {
     const auto [i, j] = revisits[k];
     const Cloud a = points_of(frames.at(i)), b = points_of(frames.at(j));
     const SearchTree tree(b);

@@ -1,14 +1,12 @@
 #include "simulate/indoor.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <mutex>
 
 #include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/engine/parallel.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
 
@@ -139,9 +137,8 @@ IndoorSummary simulate(const IndoorScene& scene, const std::filesystem::path& fo
   const std::size_t scans = lines.size() - lost;
   std::size_t done = 0;
   std::mutex telling;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t k) {
+  with_threads(static_cast<unsigned>(std::max(threads, 0)), [&] {
+    parallel_for(lines.size(), [&](std::size_t k) {
       lines[k] = odom_line(stage, k);
       if (stage.lost[k]) return;
       lines[k] += scan_line(stage, k);

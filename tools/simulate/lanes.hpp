@@ -16,11 +16,10 @@ inline void greater(Lanes& a, const Lanes& b) { a = b > a ? b : a; }
 
 /// The least of the eight.
 inline float least(const Lanes& v) {
-  typedef int Order __attribute__((vector_size(32)));
   Lanes a = v;
-  smaller(a, __builtin_shuffle(a, Order{4, 5, 6, 7, 0, 1, 2, 3}));
-  smaller(a, __builtin_shuffle(a, Order{2, 3, 0, 1, 6, 7, 4, 5}));
-  smaller(a, __builtin_shuffle(a, Order{1, 0, 3, 2, 5, 4, 7, 6}));
+  smaller(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+  smaller(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
+  smaller(a, __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6));
   return a[0];
 }
 

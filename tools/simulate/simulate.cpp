@@ -1,8 +1,6 @@
 #include "simulate/simulate.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <mutex>
@@ -10,6 +8,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/cloud_file.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/engine/parallel.hpp"
 #include "simulate/drift.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
@@ -83,9 +82,8 @@ Summary simulate(const Scene& scene, const std::filesystem::path& folder, int th
   std::atomic<std::size_t> points{0}, bytes{0};
   std::size_t done = 0;
   std::mutex telling;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, frames, [&](std::size_t k) {
+  with_threads(static_cast<unsigned>(std::max(threads, 0)), [&] {
+    parallel_for(frames, [&](std::size_t k) {
       const Cloud cloud = stage.frame(k);
       const std::string file = pcd_bytes(cloud);
       output.write(frame_name(k), file);

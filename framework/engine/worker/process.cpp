@@ -19,6 +19,7 @@ namespace plumb {
 namespace {
 
 constexpr std::uint64_t longest_message = std::uint64_t{1} << 36;
+constexpr std::size_t first_piece = std::size_t{1} << 20;
 
 /// False at the deadline or when the other end is gone.
 bool read_all(int socket, char* to, std::size_t size, Deadline deadline) {
@@ -61,8 +62,12 @@ bool send_message(int socket, std::string_view message) {
 std::optional<std::string> receive_message(int socket, Deadline deadline) {
   std::uint64_t size = 0;
   if (!read_all(socket, reinterpret_cast<char*>(&size), sizeof size, deadline) || size > longest_message) return std::nullopt;
-  std::string message(size, '\0');
-  if (!read_all(socket, message.data(), size, deadline)) return std::nullopt;
+  std::string message;
+  while (message.size() < size) {  // what is announced need not come: there is room for as much again as did
+    const std::size_t have = message.size();
+    message.resize(std::min<std::size_t>(size, std::max(first_piece, 2 * have)));
+    if (!read_all(socket, message.data() + have, message.size() - have, deadline)) return std::nullopt;
+  }
   return message;
 }
 

@@ -29,6 +29,11 @@ class Words {
     if (std::isnan(value) && fate == Fate::whole) fate = Fate::not_a_number;
     return value;
   }
+  double finite() {
+    const double value = number();
+    if (std::isinf(value) && fate == Fate::whole) fate = Fate::not_a_number;
+    return value;
+  }
   /// NaN and infinity are numbers here.
   double any_number() {
     double value = std::nan("");
@@ -67,11 +72,6 @@ class Words {
     if (word.empty() && fate == Fate::whole) fate = Fate::cut;
     return word;
   }
-  double finite() {
-    const double value = number();
-    if (std::isinf(value) && fate == Fate::whole) fate = Fate::not_a_number;
-    return value;
-  }
   std::string_view rest_;
 };
 
@@ -94,9 +94,9 @@ Parsed parse_scan(Kind kind, std::string_view message) {
   LaserScan& scan = parsed.scan;
   if (kind != Kind::flaser) {
     words.skip(1);
-    scan.start = words.number();
+    scan.start = words.finite();
     words.skip(1);
-    scan.step = words.number();
+    scan.step = words.finite();
     scan.maximum = words.number();
     words.skip(2);
   }

@@ -298,6 +298,16 @@ TEST_F(CarmenLogs, LeaveOutDamagedScansWithOneWarning) {
   EXPECT_THAT(log.context.warnings[0], HasSubstr("some.log:6: "));
 }
 
+TEST_F(CarmenLogs, LeaveOutScansWhoseBeamsPointNowhere) {
+  const auto scan = [](const std::string& start, const std::string& step, double stamp) {
+    return "ROBOTLASER1 0 " + start + " 1.0 " + step + " 30 0.01 0 3 1 2 30 0 0 0 0 0 0 0 0 0 0 0 0 " + std::to_string(stamp) + " host 1\n";
+  };
+  auto log = read(scan("-0.5", "0.5", 1) + scan("-0.5", "0.5", 2) + scan("inf", "0.5", 3) + scan("-inf", "0.5", 4) + scan("0", "1e999", 5) +
+                  scan("nan", "0.5", 6));
+  EXPECT_EQ(log.frames.keys.size(), 2u);
+  EXPECT_EQ(log.count("damaged scans left out"), 4u);
+}
+
 TEST_F(CarmenLogs, CountLinesThatAreNoMessage) {
   auto log = read("garbage line\n\n# a comment\nTRUEPOS 1 2 3\n" + two_scans + "180 1.0 1.0\n");
   EXPECT_EQ(log.frames.keys.size(), 2u);

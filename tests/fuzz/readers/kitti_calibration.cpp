@@ -1,0 +1,9 @@
+#include "../fuzz.hpp"
+#include "calibration.hpp"
+#include "plumb/data/fault.hpp"
+
+using namespace plumb;
+
+PLUMB_FUZZ_READER(kitti_calibration) {
+  fuzz::require(is_finite(read_calibration(fuzz::file_of(bytes))), "a calibration that was read is finite");
+}
