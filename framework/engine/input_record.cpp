@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <set>
 
@@ -14,10 +16,17 @@ namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
+/// False: there is nothing, or a link that leads to nothing. Throws Error for what is there and cannot be looked at: a record without it would be none.
+bool look_at(const fs::path& path, struct stat& at) {
+  if (stat(path.c_str(), &at) == 0) return true;
+  if (errno == ENOENT || errno == ENOTDIR || errno == ELOOP) return false;
+  throw Error(path.string() + ": cannot be looked at (" + std::strerror(errno) + "); make it readable, or name another input");
+}
+
 /// What a run or a store made.
 bool is_made(const fs::path& folder) {
-  std::error_code error;
-  return fs::exists(folder / "run.lock.yaml", error) || fs::exists(folder / "plumb-store", error);
+  struct stat at{};
+  return look_at(folder / "run.lock.yaml", at) || look_at(folder / "plumb-store", at);
 }
 
 class Walk {
@@ -26,7 +35,7 @@ class Walk {
 
   void start() {
     struct stat at{};
-    if (stat(record_.path.c_str(), &at) != 0) return;
+    if (!look_at(record_.path, at)) return;
     if (S_ISDIR(at.st_mode)) folder(record_.path, "", at);
     else file(record_.path, fs::path(record_.path).filename().string(), at);
     record_.digest = names_.hash();
@@ -46,7 +55,7 @@ class Walk {
       if (io::is_staging_name(name)) continue;  // another run is about to leave its results here
       const fs::path inner = path / name;
       struct stat at{};
-      if (stat(inner.c_str(), &at) != 0) continue;  // a link that leads nowhere
+      if (!look_at(inner, at)) continue;
       if (!S_ISDIR(at.st_mode)) file(inner.string(), prefix + name, at);
       else if (!is_made(inner)) folder(inner, prefix + name + "/", at);
     }

@@ -32,14 +32,16 @@ std::map<std::string, FileRecord> files_of_run(const io::Folder& folder, const f
   if (!text) return require_looked_at(shown, lock_name), files;
   const auto recorded = files_of_lock(*text);
   if (!recorded)
-    refuse(shown, std::string("nothing tells what in it is a run's, for its ") + lock_name + " was changed since, or is of an earlier Plumb", "that folder");
+    refuse(shown, std::string("nothing tells what in it is a run's, for its ") + lock_name + " was changed since, or is of an earlier Plumb",
+           "that folder");
   for (const FileRecord& file : *recorded) files[file.name] = file;
   files[lock_name] = {lock_name, text->size(), hash_of(*text)};
   return files;
 }
 
 /// Also a folder or a link under the name of a file is foreign.
-void refuse_foreign(const io::Folder& folder, const fs::path& shown, const std::vector<std::string>& names, const std::map<std::string, FileRecord>& own) {
+void refuse_foreign(const io::Folder& folder, const fs::path& shown, const std::vector<std::string>& names,
+                    const std::map<std::string, FileRecord>& own) {
   std::vector<std::string> foreign;
   for (const std::string& name : names) {
     const bool is_file = folder.stamp(name).has_value();
@@ -48,8 +50,8 @@ void refuse_foreign(const io::Folder& folder, const fs::path& shown, const std::
   }
   if (foreign.empty()) return;
   const std::size_t more = foreign.size() - 1;
-  refuse(shown, "holds '" + foreign.front() + "'" + (more > 0 ? " and " + std::to_string(more) + " more file" + (more > 1 ? "s" : "") : "") + " that no run of Plumb wrote",
-         "them");
+  const std::string others = more > 0 ? " and " + std::to_string(more) + " more file" + (more > 1 ? "s" : "") : "";
+  refuse(shown, "holds '" + foreign.front() + "'" + others + " that no run of Plumb wrote", "them");
 }
 
 /// All that is in a folder of results. Throws Error when not every bit of it is as a run wrote it.

@@ -10,8 +10,8 @@
 
 namespace plumb {
 
-/// Files are written beside the folder and moved into place at the end. An existing folder is replaced only when everything in it is as an earlier run
-/// wrote it, by the sizes and hashes in its run.lock.yaml; anything else is refused and not touched.
+/// Files are written beside the folder and moved into place at the end. An existing folder is replaced only when everything in it is
+/// as an earlier run wrote it, by the sizes and hashes in its run.lock.yaml; anything else is refused and not touched.
 class OutputFolder {
  public:
   /// Makes sure, before anything runs, that the folder can be written. Throws Error with the reason and the cure.

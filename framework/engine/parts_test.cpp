@@ -93,7 +93,8 @@ struct Changed : Folder {
 };
 
 TEST_F(Changed, AFileOfTheRunThatWasEditedIsKept) {
-  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / "a.txt") << "two"; }), testing::HasSubstr("'a.txt' was changed since a run wrote it"));
+  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / "a.txt") << "two"; }),
+              testing::HasSubstr("'a.txt' was changed since a run wrote it"));
   EXPECT_EQ(read(base / "out/a.txt"), "two");
   EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / "a.txt", std::ios::app) << "more"; }), testing::HasSubstr("'a.txt' was changed"));
   EXPECT_EQ(refused([](const fs::path& out) { std::ofstream(out / "a.txt") << "one"; }), "");  // the same bytes
@@ -107,7 +108,8 @@ TEST_F(Changed, AFolderLinkOrPipeUnderTheNameOfAFileIsKept) {
       make(out / "a.txt");
     });
   };
-  EXPECT_THAT(instead([](const fs::path& file) { fs::create_directory(file), std::ofstream(file / "mine") << "mine"; }), testing::HasSubstr("holds 'a.txt' that no run"));
+  EXPECT_THAT(instead([](const fs::path& file) { fs::create_directory(file), std::ofstream(file / "mine") << "mine"; }),
+              testing::HasSubstr("holds 'a.txt' that no run"));
   EXPECT_EQ(read(base / "out/a.txt/mine"), "mine");
   std::ofstream(base / "victim") << "one";
   EXPECT_THAT(instead([&](const fs::path& file) { fs::create_symlink(base / "victim", file); }), testing::HasSubstr("holds 'a.txt' that no run"));
@@ -124,8 +126,10 @@ TEST_F(Changed, AnEditedRecordProvesNothing) {
   };
   EXPECT_THAT(refused(edited), testing::HasSubstr("run.lock.yaml was changed since"));
   EXPECT_EQ(read(base / "out/thesis.tex"), "mine");
-  EXPECT_THAT(refused([](const fs::path& out) { std::ofstream(out / lock_name) << "# A run of Plumb: what made the files beside this one.\nplumb: 0.1.0\nfiles:\n  - a.txt\n"; }),
-              testing::HasSubstr("or is of an earlier Plumb"));
+  const auto of_an_earlier_plumb = [](const fs::path& out) {
+    std::ofstream(out / lock_name) << "# A run of Plumb: what made the files beside this one.\nplumb: 0.1.0\nfiles:\n  - a.txt\n";
+  };
+  EXPECT_THAT(refused(of_an_earlier_plumb), testing::HasSubstr("or is of an earlier Plumb"));
 }
 
 TEST_F(Changed, ARecordThatNamesWhatLiesElsewhereReachesNothing) {

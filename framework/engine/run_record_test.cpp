@@ -52,6 +52,31 @@ TEST_F(Record, IsReadBackAsItWasWritten) {
   EXPECT_TRUE(differences(record, read).empty());
 }
 
+TEST_F(Record, OfAnInputLeavesOutWhatAnotherRunStages) {
+  const InputRecord before = input_record(input.string(), true);
+  fs::create_directories(input / ".out.plumb-0123456789ab");
+  write(".out.plumb-0123456789ab/half.ply", "half");
+  write(".out.plumb-0123456789ab.lock", "token");
+  EXPECT_EQ(input_record(input.string(), true).content, before.content);
+  fs::create_directories(input / "scan.partial-1");  // a user's own
+  write("scan.partial-1/2.pcd", "two");
+  EXPECT_EQ(input_record(input.string(), true).files, before.files + 1);
+}
+
+TEST_F(Record, OfTheFilesIsTakenOnlyFromATextThatWasNotEdited) {
+  const RunRecord record = some();
+  const std::string text = lock_text(record);
+  ASSERT_TRUE(files_of_lock(text));
+  EXPECT_EQ(*files_of_lock(text), record.files);
+  for (std::size_t at = 0; at < text.size(); at += 7) {
+    std::string edited = text;
+    edited[at] ^= 1;
+    EXPECT_FALSE(files_of_lock(edited)) << at;
+  }
+  EXPECT_FALSE(files_of_lock(text + "more\n"));
+  EXPECT_FALSE(files_of_lock(text.substr(0, text.find("files:"))));
+}
+
 TEST_F(Record, IsRefusedWhereverItIsCut) {
   const std::string text = lock_text(some());
   for (std::size_t n = 0; n + 1 < text.size(); n += 3) EXPECT_THROW(read_lock(lock(text.substr(0, n))), Error) << n;

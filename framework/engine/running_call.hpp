@@ -16,7 +16,8 @@ class RunningCall {
   RunningCall(const RunningCall&) = delete;
   RunningCall& operator=(const RunningCall&) = delete;
 
-  /// Of this thread, "step 'coarse.matches' (match.fpfh_mutual), edge 3-4"; at least the step where it works for a call of another thread; empty for none.
+  /// Of this thread, "step 'coarse.matches' (match.fpfh_mutual), edge 3-4"; at least the step where it works for a call of another
+  /// thread; empty for none.
   static std::string title();
 
  private:

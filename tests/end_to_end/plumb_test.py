@@ -71,7 +71,8 @@ def refused(said, *words):
 def nothing_left(output):
     """Neither the output folder nor a half-written one stands beside where it would be."""
     output = Path(output)
-    left = [entry.name for pattern in (output.name + "*", "." + output.name + ".plumb-*") for entry in output.parent.glob(pattern)] if output.parent.is_dir() else []
+    names = [entry.name for entry in output.parent.iterdir()] if output.parent.is_dir() else []
+    left = [name for name in names if name.startswith((output.name, f".{output.name}.plumb-"))]
     assert not left, f"left behind: {left}"
 
 

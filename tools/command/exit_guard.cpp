@@ -13,10 +13,11 @@
 namespace plumb::command {
 namespace {
 
-std::atomic<int> armed = 0;
+std::atomic<int> guards = 0;
+std::atomic<pid_t> guarded = 0;  // a child that a module forks may end as it likes
 
-void end() {
-  if (armed == 0) return;
+void refuse_to_end() {
+  if (guards == 0 || guarded != getpid()) return;
   io::remove_all_staging();
   const std::string call = RunningCall::title();
   std::fprintf(stderr, "\nplumb: %s: its module ended the program (by exit), and nothing is written; a step must return, or throw plumb::Error\n",
@@ -27,11 +28,12 @@ void end() {
 }  // namespace
 
 ExitGuard::ExitGuard() {
-  ++armed;
-  std::atexit(end);
-  std::at_quick_exit(end);
+  guarded = getpid();
+  ++guards;
+  std::atexit(refuse_to_end);
+  std::at_quick_exit(refuse_to_end);
 }
 
-ExitGuard::~ExitGuard() { --armed; }
+ExitGuard::~ExitGuard() { --guards; }
 
 }  // namespace plumb::command

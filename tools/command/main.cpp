@@ -1,6 +1,7 @@
 /// The `plumb` command.
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -48,6 +49,14 @@ void open_standard_files() {
     if (fcntl(number, F_GETFD) < 0 && open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) _exit(plumb::command::exit_refused);
 }
 
+/// As many open files as the system lets it have: compare holds a few for each of its runs.
+void allow_open_files() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 /// When all is done: whether it could also be said.
 int said() {
   errno = 0;
@@ -61,6 +70,7 @@ int said() {
 
 int main(int argc, char** argv) {
   open_standard_files();
+  allow_open_files();
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with -DPLUMB_ARCH= for any x86-64\n";
     return 1;

@@ -52,7 +52,8 @@ fs::path settled(const fs::path& given, const std::string& cure) {
 /// Throws Error: what replaces a folder must be able to remove its files.
 void require_writable(const Folder& folder, const fs::path& place) {
   if (uninterrupted([&] { return faccessat(folder.number(), ".", W_OK | X_OK, AT_EACCESS); }) == 0) return;
-  throw Error(place.string() + ": an earlier run in it cannot be removed (" + std::strerror(errno) + "); make the folder writable (chmod u+w), or give another one");
+  throw Error(place.string() + ": an earlier run in it cannot be removed (" + std::strerror(errno) +
+              "); make the folder writable (chmod u+w), or give another one");
 }
 
 }  // namespace

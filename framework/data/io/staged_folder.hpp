@@ -17,18 +17,21 @@ class WriteError : public Error {
   using Error::Error;
 };
 
-/// Files are written to a folder beside the place (Staging), which finish() exchanges for what is there, by one rename where the system has it; files and
-/// folders are on the disk before. Without finish() the destructor removes them, and so does remove_all_staging() when the program is interrupted. What a
-/// program that was killed left beside the same place is removed by the next one, and what it had moved away to make room is moved back.
+/// Files are written to a folder beside the place (Staging), which finish() exchanges for what is there, by one rename where the
+/// system has it; files and folders are on the disk before. Without finish() the destructor removes them, and so does
+/// remove_all_staging() when the program is interrupted. What a program that was killed left beside the same place is removed by the
+/// next one, and what it had moved away to make room is moved back.
 ///
-/// Never is anything removed that was not made by a StagedFolder: not beside the place, and not in it. A place that is a link means the folder that it leads to.
+/// Never is anything removed that was not made by a StagedFolder: not beside the place, and not in it. A place that is a link means
+/// the folder that it leads to.
 class StagedFolder {
  public:
-  /// Looks at a folder that stands at the place, which has the path `shown`, and lists all that is in it, with stamps of the files. Throws Error when it
-  /// holds something that was not made by a program like this one, or is no longer as it was made.
+  /// Looks at a folder that stands at the place, which has the path `shown`, and lists all that is in it, with stamps of the files.
+  /// Throws Error when it holds something that was not made by a program like this one, or is no longer as it was made.
   using Proof = std::function<Listing(const Folder& folder, const std::filesystem::path& shown)>;
 
-  /// `cure` ends sentences: "give another folder with -o". Throws Error: the place is empty, a file, a link to nothing, or cannot be written; what `proof` throws.
+  /// `cure` ends sentences: "give another folder with -o". Throws Error: the place is empty, a file, a link to nothing, or cannot be
+  /// written; what `proof` throws.
   StagedFolder(const std::filesystem::path& place, std::string cure, Proof proof);
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
@@ -41,8 +44,8 @@ class StagedFolder {
   void write(const std::string& name, const std::function<void(const Take& take)>& give);
   /// Throws what `proof` does for what came into the folder meanwhile.
   void look_again();
-  /// Replaces the place by what is staged. Throws WriteError: that cannot be done; what `proof` throws: what is there changed. Then all is as before. Gives a sentence about what
-  /// is not as it should be although the new folder is in place; empty if all is well.
+  /// Replaces the place by what is staged. Throws WriteError: that cannot be done; what `proof` throws: what is there changed. Then all
+  /// is as before. Gives a sentence about what is not as it should be although the new folder is in place; empty if all is well.
   std::string finish();
   /// Keeps what is staged beside the place, for good, and says where.
   std::filesystem::path keep();

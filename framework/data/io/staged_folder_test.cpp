@@ -34,7 +34,10 @@ class Staged : public testing::Test {
  protected:
   fs::path place() const { return folder_.path() / "out"; }
   std::vector<std::string> beside() const { return *Folder(folder_.path()).names(); }
-  std::string read(const std::string& name) const { return Folder((folder_.path() / name).parent_path()).text(fs::path(name).filename(), 100).value_or("(nothing)"); }
+  std::string read(const std::string& name) const {
+    const fs::path file = folder_.path() / name;
+    return Folder(file.parent_path()).text(file.filename(), 100).value_or("(nothing)");
+  }
   static void write(StagedFolder& folder, const std::string& name, const std::string& text) {
     folder.write(name, [&](const Take& take) { take(text); });
   }
@@ -104,7 +107,8 @@ TEST_F(Staged, WhatAUserPutIntoARemainStays) {
 }
 
 TEST_F(Staged, FoldersThatLookLikeARemainStay) {
-  const std::vector<std::string> names = {".out.plumb-0123456789ab", ".out.plumb-backup", "out.old-2024", "out.old-1", "out.partial-1", "out.partial-999999999"};
+  const std::vector<std::string> names = {".out.plumb-0123456789ab", ".out.plumb-backup", "out.old-2024",
+                                          "out.old-1", "out.partial-1", "out.partial-999999999"};
   for (const std::string& name : names) folder_.write(name + "/thesis.tex", "mine");
   folder_.write(".out.plumb-0123456789ab.lock", "");
   folder_.write(".out.plumb-111111111111.lock", "# a text of mine\ntoken 111111111111\n");
@@ -125,7 +129,8 @@ TEST_F(Staged, ACopyOfARemainUnderAnotherNameStays) {
   fs::copy(folder_.path() / left[0], folder_.path() / ".other.plumb-0123456789ab");
   fs::copy(folder_.path() / left[1], folder_.path() / ".other.plumb-0123456789ab.lock");
   make("made");
-  EXPECT_THAT(beside(), ElementsAre(".other.plumb-0123456789ab", ".other.plumb-0123456789ab.lock", ".out.plumb-0123456789ab", ".out.plumb-0123456789ab.lock", "out"));
+  EXPECT_THAT(beside(), ElementsAre(".other.plumb-0123456789ab", ".other.plumb-0123456789ab.lock", ".out.plumb-0123456789ab",
+                                    ".out.plumb-0123456789ab.lock", "out"));
 }
 
 TEST_F(Staged, WhatAnotherProcessStagesIsInUseWhateverItsNumber) {
@@ -241,11 +246,13 @@ TEST(StagingName, IsToldFromOthers) {
   EXPECT_TRUE(is_staging_name(".out.plumb-0123456789ab"));
   EXPECT_TRUE(is_staging_name(".out.plumb-0123456789ab.lock"));
   EXPECT_TRUE(is_staging_name(".out.plumb-0123456789ab.old"));
-  for (const char* name : {"out.plumb-0123456789ab", ".out.plumb-backup", ".out.plumb-0123456789abc", ".lock", "", "scan.partial-1"}) EXPECT_FALSE(is_staging_name(name)) << name;
+  for (const char* name : {"out.plumb-0123456789ab", ".out.plumb-backup", ".out.plumb-0123456789abc", ".lock", "", "scan.partial-1"})
+    EXPECT_FALSE(is_staging_name(name)) << name;
 }
 
 TEST(StagingJournal, ANameThatLeavesTheFolderIsNoJournal) {
-  for (const char* line : {"file ../a\n", "file /a\n", "file a//b\n", "old-file 1 2 3 4 ../../a\n", "folder .\n", "nonsense 1\n", "made x\n"}) EXPECT_FALSE(StagingJournal().read(line)) << line;
+  for (const char* line : {"file ../a\n", "file /a\n", "file a//b\n", "old-file 1 2 3 4 ../../a\n", "folder .\n", "nonsense 1\n", "made x\n"})
+    EXPECT_FALSE(StagingJournal().read(line)) << line;
   StagingJournal journal;
   EXPECT_TRUE(journal.read("made 5\nfolder frames\nfile frames/a b.pcd\nfile cut"));
   EXPECT_EQ(journal.made.inode, 5u);

@@ -83,7 +83,8 @@ bool Staging::draw_names() {
 
 /// The marker under its name from the beginning: where files without one are not known. A kill right now leaves an empty file.
 bool Staging::make_marker_by_name(const std::string& name) {
-  marker_ = Handle(uninterrupted([&] { return openat(parent_.number(), name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0600); }));
+  constexpr int fresh = O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC;
+  marker_ = Handle(uninterrupted([&] { return openat(parent_.number(), name.c_str(), fresh, 0600); }));
   named_ = static_cast<bool>(marker_);
   if (!named_) return false;
   const bool locked = lock(marker_.number(), LOCK_EX);
@@ -137,7 +138,8 @@ Handle Staging::create(const std::string& name) {
   const auto inner = slash == name.npos ? inner_.end() : inner_.find(name.substr(0, slash));
   const int folder = inner == inner_.end() ? folder_.number() : inner->second.number();
   const std::string leaf = inner == inner_.end() ? name : name.substr(slash + 1);
-  return Handle(uninterrupted([&] { return openat(folder, leaf.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666); }));
+  constexpr int fresh = O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC;
+  return Handle(uninterrupted([&] { return openat(folder, leaf.c_str(), fresh, 0666); }));
 }
 
 bool Staging::sync() {
@@ -175,7 +177,8 @@ void remove_remains(const Folder& parent, const std::string& place) {
   const auto names = parent.names();
   if (!names) return;
   for (const std::string& name : *names)
-    if (name.size() == begin.size() + token_in_name + end.size() && name.starts_with(begin) && name.ends_with(end)) remove_abandoned(parent, place, name);
+    if (name.size() == begin.size() + token_in_name + end.size() && name.starts_with(begin) && name.ends_with(end))
+      remove_abandoned(parent, place, name);
 }
 
 bool is_staging_name(const std::string& name) {

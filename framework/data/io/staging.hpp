@@ -8,8 +8,9 @@
 
 namespace plumb::io {
 
-/// Both lie in `parent`, `.PLACE.plumb-TOKEN` and `.PLACE.plumb-TOKEN.lock`, with a random token. The marker holds the journal, and its maker holds a lock on
-/// it for as long as it lives, so that no number of a process is ever compared. Not safe from several threads.
+/// Both lie in `parent`, `.PLACE.plumb-TOKEN` and `.PLACE.plumb-TOKEN.lock`, with a random token. The marker holds the journal, and
+/// its maker holds a lock on it for as long as it lives, so that no number of a process is ever compared. Not safe from several
+/// threads.
 class Staging {
  public:
   /// Nothing is made yet.

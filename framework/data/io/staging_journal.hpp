@@ -29,7 +29,7 @@ bool is_as_listed(const Folder& folder, const Listing& listing);
 struct StagingJournal {
   std::string name;     ///< of the folder while it is made
   Listing made;         ///< in it
-  Listing old;          ///< in the folder that it replaces, which afterwards bears its name, or old_name() where the system cannot exchange two folders
+  Listing old;          ///< in the folder that it replaces, which then bears its name, or old_name() where two cannot be exchanged
 
   std::string old_name() const { return name + ".old"; }
   static std::string line_of(const char* kind, const std::string& what) { return std::string(kind) + " " + what + "\n"; }
@@ -37,8 +37,8 @@ struct StagingJournal {
   /// Takes the lines of a marker; a last one that a kill cut is left out. False: some other line is none of a journal.
   bool read(std::string_view lines);
 
-  /// Puts back a replaced folder if `place` is missing, removes what is listed, and then the folders. 0, or the errno of the first thing that was not
-  /// possible; ENOTEMPTY when something else is in a folder: that stays.
+  /// Puts back a replaced folder if `place` is missing, removes what is listed, and then the folders. 0, or the errno of the first
+  /// thing that was not possible; ENOTEMPTY when something else is in a folder: that stays.
   int remove(const Folder& parent, const std::string& place) const;
 
  private:

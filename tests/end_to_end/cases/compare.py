@@ -107,7 +107,8 @@ def test_a_name_that_leads_out_of_the_output_is_refused(folder):
         assert "\x1b" not in said.err, said
     (folder / "chained.yaml").write_text(SMALL)
     for name in ("../up", "/abs", ".hidden", "a/b"):
-        plumb(*command[:2], "--variant", f"{name}={folder}/loose.yaml", "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_COMMAND_LINE).has("is no name for")
+        said = plumb(*command[:2], "--variant", f"{name}={folder}/loose.yaml", "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_COMMAND_LINE)
+        said.has("is no name for")
     rooms[0].rename(folder / ".rooms")
     refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is no name for")
     assert sorted(p.name for p in folder.iterdir()) == [".rooms", "chained.yaml", "loose.yaml"]
@@ -116,7 +117,9 @@ def test_a_name_that_leads_out_of_the_output_is_refused(folder):
 def test_a_step_s_file_stays_in_the_output(folder):
     _, rooms = files(folder, seeds=[1])
     for name in ("../escaped.tum", "/tmp/absolute.tum", "a/b.tum", ".hidden", "run.lock.yaml"):
-        plumb("run", folder / "chained.yaml", "--set", f"input={rooms[0] / 'log.clf'}", "--set", f"trajectory.name={name}", "-o", folder / "out", code=WRONG_INPUT).has("choose another")
+        said = plumb("run", folder / "chained.yaml", "--set", f"input={rooms[0] / 'log.clf'}", "--set", f"trajectory.name={name}", "-o", folder / "out",
+                     code=WRONG_INPUT)
+        said.has("choose another")
     assert not (folder / "out").exists() and not (folder / "escaped.tum").exists()
 
 

@@ -98,8 +98,8 @@ def test_a_module_that_leaves(folder):
 
 def test_a_module_that_ends_the_program_as_if_all_were_well(folder):
     costs_its_item(folder, "exit", "exited with code 0")
-    for deed, where, title in (("exit", "bad", "step 'bad' (test.misbehave), edge 1-2: "), ("quick_exit", "bad", "step 'bad' (test.misbehave), edge 1-2: "),
-                               ("exit", "last", "step 'last' (test.missolve): ")):
+    edge = "step 'bad' (test.misbehave), edge 1-2: "
+    for deed, where, title in (("exit", "bad", edge), ("quick_exit", "bad", edge), ("exit", "last", "step 'last' (test.missolve): ")):
         before = files_of(folder / "good")
         said = run(folder, "good", deed, "--quiet", where=where)
         refused(said, title, "its module ended the program", "nothing is written")
