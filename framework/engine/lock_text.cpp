@@ -143,9 +143,19 @@ std::optional<std::vector<FileRecord>> files_of_lock(const std::string& text) {
   return files;
 }
 
-RunRecord read_lock(const std::filesystem::path& file) {
+namespace {
+
+std::string text_of(const std::filesystem::path& file) try {
   constexpr std::uint64_t most = std::uint64_t{64} << 20;
-  const std::string text(io::FileBytes(file, most, "record of a run").view());
+  return std::string(io::FileBytes(file, most, "record of a run").view());
+} catch (const Error& e) {
+  throw Error(std::string(e.what()) + "; give the run.lock.yaml of a run");
+}
+
+}  // namespace
+
+RunRecord read_lock(const std::filesystem::path& file) {
+  const std::string text = text_of(file);
   if (!text.starts_with(pipeline::lock_first_line)) throw Error(file.string() + ": is no record of a run; give the run.lock.yaml of one");
   Reader reader(file.string(), text);
   reader.take(pipeline::lock_first_line);
