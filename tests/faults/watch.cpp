@@ -8,9 +8,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -157,7 +159,7 @@ Fate fate_of(const Call& call) {
     kill(0, SIGKILL);
   }
   if (now.lasts && now.error == ENOSPC && call.kind != Kind::room) return fate;
-  fate.is_short = now.is_short && call.name != nullptr;
+  fate.is_short = now.is_short;
   fate.error = now.error;
   return fate;
 }
