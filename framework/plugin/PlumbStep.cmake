@@ -22,6 +22,10 @@ function(plumb_add_step step)
   target_link_libraries(step_${id} PRIVATE plumb ${arg_LIBRARIES} -Wl,--no-undefined)
   set_target_properties(step_${id} PROPERTIES PREFIX "" OUTPUT_NAME ${step}
                         LIBRARY_OUTPUT_DIRECTORY ${PLUMB_MODULE_DIR})
+  if(NOT TARGET plumb_modules)
+    add_custom_target(plumb_modules)  # all of them, for who builds no tests
+  endif()
+  add_dependencies(plumb_modules step_${id})
   if(TARGET plumb_manifest)
     add_custom_command(TARGET step_${id} POST_BUILD
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
