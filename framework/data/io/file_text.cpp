@@ -1,25 +1,20 @@
 #include "plumb/data/io/file_text.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/regular_file.hpp"
 
 namespace plumb::io {
 namespace {
 
-/// A file descriptor that closes itself.
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-};
+/// [byte] of the machine's memory.
+std::uint64_t whole_memory() {
+  static const auto bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return bytes;
+}
 
 bool parts(char c, char also) { return c == ' ' || c == '\t' || c == also; }
 
@@ -33,22 +28,25 @@ bool whole_word(std::string_view word, T& value) {
 }  // namespace
 
 FileBytes::FileBytes(const std::filesystem::path& file) {
-  const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (descriptor.number < 0)
-    refuse(file, std::string("cannot be opened (") + std::strerror(errno) + "): check the path");
-  struct stat status;
-  if (::fstat(descriptor.number, &status) != 0 || !S_ISREG(status.st_mode))
-    refuse(file, "is not a regular file: give the path of a file");
-  size_ = static_cast<std::size_t>(status.st_size);
+  read(file, whole_memory(), "more than this machine's memory holds: give a smaller one");
+}
+
+FileBytes::FileBytes(const std::filesystem::path& file, std::uint64_t most, const std::string& kind) {
+  read(file, most, "and no " + kind + " is larger than " + std::to_string(most >> 20) + " MiB: check the path");
+}
+
+void FileBytes::read(const std::filesystem::path& file, std::uint64_t most, const std::string& too_large) {
+  RegularFile from(file);
+  if (from.size() > most) refuse(file, "has " + std::to_string(from.size()) + " bytes, " + too_large);
+  size_ = static_cast<std::size_t>(from.size());
   bytes_ = std::make_unique_for_overwrite<char[]>(size_);
   for (std::size_t have = 0; have < size_;) {
-    const ssize_t got = ::read(descriptor.number, bytes_.get() + have, size_ - have);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0)
+    const std::size_t got = from.read(bytes_.get() + have, size_ - have);
+    if (got == 0)
       refuse(file, "could be read only up to byte " + std::to_string(have) + " of " +
                        std::to_string(size_) +
                        ": check the disk, or whether it is still being written");
-    have += static_cast<std::size_t>(got);
+    have += got;
   }
 }
 

@@ -11,13 +11,17 @@
 
 namespace plumb::io {
 
-/// The bytes of a file, read at once. Throws Error: cannot be opened or read, a folder.
+/// The bytes of a regular file, read at once. Throws Error: something else than a file, cannot be opened or read, too large.
 class FileBytes {
  public:
+  /// Of any size that the machine's memory takes.
   explicit FileBytes(const std::filesystem::path& file);
+  /// Of `most` bytes, which no `kind` ("pipeline") is larger than.
+  FileBytes(const std::filesystem::path& file, std::uint64_t most, const std::string& kind);
   std::string_view view() const { return {bytes_.get(), size_}; }
 
  private:
+  void read(const std::filesystem::path& file, std::uint64_t most, const std::string& too_large);
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
 };
