@@ -3,6 +3,7 @@
 /// Numbers go as they lie in memory (little endian), sequences and texts with their length first. In bytes, but not in hashes, an array of plain
 /// values begins at a multiple of 16 bytes from the start, so that it can be read where a file is mapped.
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -145,6 +146,11 @@ class InArchive {
       fields(*this, value);
     }
   }
+  void take_value(bool& value) {
+    const char byte = *take(1);
+    if (byte != 0 && byte != 1) throw Error("stored value has a yes or no that is neither");
+    value = byte == 1;
+  }
   void take_value(std::string& s) {
     const std::size_t n = take_size(1);
     s.assign(take(n), n);
@@ -163,8 +169,10 @@ class InArchive {
       take(array_padding(at_));
       std::memcpy(static_cast<void*>(values.data()), take(values.size() * sizeof(T)), values.size() * sizeof(T));
     } else {
-      values.resize(take_size(1));
-      for (auto& value : values) take_value(value);
+      values.clear();
+      const std::size_t n = take_size(1);
+      values.reserve(std::min(n, (bytes_.size() - at_) / sizeof(T) + 1));  // what is said need not be there
+      for (std::size_t k = 0; k < n; ++k) take_value(values.emplace_back());
     }
   }
   template <class K, class V>

@@ -1,46 +1,27 @@
 #pragma once
-/// What no step may give on a wire: poses and points with numbers that are not finite. Checked by the engine, so that the step that made them is named
-/// and not the one that stumbles over them.
-
-#include <cmath>
+/// What no value on a wire may hold: numbers that are not finite where a place or a direction is meant, columns of other lengths than the others,
+/// places that lie beyond what they point into. Asked of all that a step gives, so that the step that made it is named and not the one that stumbles
+/// over it, and of all that is read from a store, whose files anyone may have written.
 
 #include "plumb/data/registration.hpp"
 
 namespace plumb {
 
-inline constexpr const char* pose_not_finite = "a pose with a number that is not finite";
-inline constexpr const char* point_not_finite = "a point with a coordinate that is not finite";
-
-inline bool is_finite(const Pose& pose) { return pose.translation.allFinite() && pose.rotation.coeffs().allFinite(); }
-inline bool is_finite(const RelativePose& relation) { return is_finite(relation.T_i_j); }
-inline bool is_finite(const AbsolutePose& relation) { return is_finite(relation.T_world_i); }
-inline bool is_finite(const Eigen::Vector3f& point) { return point.allFinite(); }
-template <class T>
-bool is_finite(const std::vector<T>& values) {
-  for (const T& value : values)
-    if (!is_finite(value)) return false;
-  return true;
-}
-inline bool is_finite(const Cloud& cloud) {
-  float sum = 0;  // times zero: not a number as soon as one of them is none, and fast
-  for (const auto* axis : {&cloud.x, &cloud.y, &cloud.z})
-    for (const float value : *axis) sum += value * 0.f;
-  return sum == 0;
-}
-
-/// "" or what is wrong with a value, whatever step made it. Types that are not listed may hold anything.
-template <class T>
-const char* fault_in(const T&) { return ""; }
-inline const char* fault_in(const Trajectory& trajectory) { return is_finite(trajectory.T_world_frame) ? "" : pose_not_finite; }
-inline const char* fault_in(const Poses& poses) { return is_finite(poses.T_world_segment) ? "" : pose_not_finite; }
-inline const char* fault_in(const Registration& registration) { return is_finite(registration.T_i_j) ? "" : pose_not_finite; }
-inline const char* fault_in(const Range& range) {
-  return is_finite(range.T_world_segment) && is_finite(range.T_segment_frame) ? "" : pose_not_finite;
-}
-inline const char* fault_in(const Relations& relations) {
-  return is_finite(relations.relative) && is_finite(relations.absolute) ? "" : pose_not_finite;
-}
-inline const char* fault_in(const Segment& segment) { return is_finite(segment.cloud) ? "" : point_not_finite; }
-inline const char* fault_in(const Matches& matches) { return is_finite(matches.p) && is_finite(matches.q) ? "" : point_not_finite; }
+/// "" or what is wrong with a value, whatever step made it: "a pose with a number that is not finite". The numbers of Metrics may be anything (there are
+/// errors of no pairs), and the name of a Document is judged where it becomes a file.
+const char* fault_in(const Trajectory& trajectory);
+const char* fault_in(const Frame& frame);
+const char* fault_in(const Range& range);
+const char* fault_in(const Segment& segment);
+const char* fault_in(const Descriptor& descriptor);
+const char* fault_in(const Features& features);
+const char* fault_in(const Edges& edges);
+const char* fault_in(const Matches& matches);
+const char* fault_in(const Registration& registration);
+const char* fault_in(const Relations& relations);
+const char* fault_in(const Poses& poses);
+const char* fault_in(const GridMap& map);
+const char* fault_in(const Metrics& metrics);
+const char* fault_in(const Document& document);
 
 }  // namespace plumb

@@ -17,10 +17,10 @@ SharedResult Results::remembered(const Hash128& key) {
   return at->second->result;
 }
 
-SharedResult Results::find(const Hash128& key) {
+SharedResult Results::find(const Hash128& key, const FaultOf& fault_of) {
   if (auto here = remembered(key)) return here;
   if (!store_ || (fresh_ && !in_store(key))) return nullptr;
-  auto stored = store_->find(key);
+  auto stored = store_->find(key, fault_of);
   if (!stored) {
     const std::lock_guard lock(mutex_);
     facts_.erase(key);

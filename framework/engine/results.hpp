@@ -24,8 +24,8 @@ class Results {
   /// is in the store.
   Results(Store* store, bool fresh, std::size_t budget, bool frugal = false) : store_(store), fresh_(fresh), frugal_(frugal), budget_(budget) {}
 
-  /// The result under `key`, from memory or from the store; null when it is in neither.
-  SharedResult find(const Hash128& key);
+  /// The result under `key`, from memory or from the store; null when it is in neither. One in the store that has a fault is removed from there.
+  SharedResult find(const Hash128& key, const FaultOf& fault_of = nullptr);
   /// As find, from memory alone.
   SharedResult remembered(const Hash128& key);
   /// Keeps what the step called `step` made.

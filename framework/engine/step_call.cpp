@@ -25,11 +25,15 @@ class RunCollection final : public Collection {
 
 }  // namespace
 
-/// The frames that segment k is made of.
-std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k) const {
+/// Those of `frames` that segment k is made of.
+std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k, const Source& frames) const {
   for (std::size_t p = 0; p < inputs_.size(); ++p)
     if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>()) {
       const auto range = inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>();
+      const std::size_t there = frames.run->count(frames.output);
+      if (range->end > there)
+        throw NestedError(title(k) + ": has frames up to " + std::to_string(range->end) + " and there are " + std::to_string(there) +
+                          "; wire ranges that these frames were cut into, and if a store was changed by hand, run with --fresh");
       return {range->first, range->end};
     }
   throw Error("has frames but no ranges");
@@ -57,7 +61,7 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
       add(source.run->key(source.output, edges_->list[k].j));
       break;
     case Access::each: {
-      const auto [first, end] = itemwise() ? frames_of(k) : std::pair(std::size_t{0}, source.run->count(source.output));
+      const auto [first, end] = itemwise() ? frames_of(k, source) : std::pair(std::size_t{0}, source.run->count(source.output));
       add_number(end - first);
       for (std::size_t n = first; n < end; ++n) add(source.run->key(source.output, n));
       if (source.run->edges()) add(content_hash(*source.run->edges()));
@@ -104,7 +108,7 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
         port.other = source.run->value(source.output, edges_->list[k].j);
         break;
       case Access::each: {
-        const auto [first, end] = itemwise() ? frames_of(k) : std::pair(std::size_t{0}, source.run->count(source.output));
+        const auto [first, end] = itemwise() ? frames_of(k, source) : std::pair(std::size_t{0}, source.run->count(source.output));
         port.each = std::make_shared<RunCollection>(source, first, end);
         break;
       }
@@ -161,23 +165,28 @@ std::size_t StepRun::expected_bytes(std::size_t k) {
     if (input.access == Access::ends)
       bytes += source.run->size_of(source.output, edges_->list[k].i) + source.run->size_of(source.output, edges_->list[k].j);
     if (input.access == Access::each && itemwise()) {
-      const auto [first, end] = frames_of(k);
+      const auto [first, end] = frames_of(k, source);
       for (std::size_t n = first; n < end; ++n) bytes += source.run->size_of(source.output, n);
     }
   }
   return keeping_ == Keeping::passing ? bytes : 3 * bytes;
 }
 
-/// Poses and points that are no numbers are refused here, so that the step that made them is named.
+/// What no step may give is refused here, so that the step that made it is named.
+void StepRun::require_sound(const AnyValue& value, std::size_t output) const {
+  if (!value) return;
+  if (const char* fault = value.type->fault(value.value.get()); *fault)
+    throw Error("its output '" + plan_.description->outputs[output].name + "' holds " + fault + "; the step must not give that, whatever its input");
+}
+
 void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const {
-  const auto check = [&](const AnyValue& value, const OutputDescription& port) {
-    if (!value) return;
-    if (const char* fault = value.type->fault(value.value.get()); *fault)
-      throw NestedError(title(k) + ": its output '" + port.name + "' holds " + fault + "; the step must not give that, whatever its input");
-  };
-  for (std::size_t o = 0; o < outputs.size(); ++o) {
-    check(outputs[o].one, plan_.description->outputs[o]);
-    for (const AnyValue& value : outputs[o].many) check(value, plan_.description->outputs[o]);
+  try {
+    for (std::size_t o = 0; o < outputs.size(); ++o) {
+      require_sound(outputs[o].one, o);
+      for (const AnyValue& value : outputs[o].many) require_sound(value, o);
+    }
+  } catch (const Error& e) {
+    throw NestedError(title(k) + ": " + e.what());
   }
 }
 

@@ -15,9 +15,14 @@ constexpr std::size_t most_failures = 16;
 
 }  // namespace
 
-/// An item-wise step has as many items as the item-wise inputs that it is wired to.
+/// An item-wise step has as many items as the item-wise inputs that it is wired to, which must be equally many.
 void StepRun::find_items() {
   const auto& ports = plan_.description->inputs;
+  std::string first;
+  const auto take = [&](std::size_t items, const std::string& port) {
+    if (!first.empty() && items != items_) refuse_counts("'" + port + "'", items, "'" + first + "'", items_);
+    items_ = items, first = port;
+  };
   for (std::size_t p = 0; p < ports.size(); ++p) {
     if (inputs_[p].empty()) continue;
     const Source& source = inputs_[p].front();
@@ -25,12 +30,30 @@ void StepRun::find_items() {
     if (access == Access::over_edges || access == Access::this_edge) {
       edges_source_ = source;
       edges_ = source.run->value(source.output).as<Edges>();
-      items_ = edges_->size();
+      take(edges_->size(), ports[p].name);
     } else if (access == Access::item && ports[p].type->grain != Grain::whole) {
-      items_ = source.run->count(source.output);
+      take(source.run->count(source.output), ports[p].name);
       if (ports[p].type->grain == Grain::edge) edges_source_ = source.run->edges_source(), edges_ = source.run->edges();
     }
   }
+}
+
+/// An edge's segments are taken from the step's inputs by their numbers.
+void StepRun::require_segments_of_edges() const {
+  for (std::size_t p = 0; edges_ && p < inputs_.size(); ++p) {
+    const Access access = plan_.description->inputs[p].access;
+    if (inputs_[p].empty() || (access != Access::ends && access != Access::relative)) continue;
+    const Source& source = inputs_[p].front();
+    const bool ends = access == Access::ends;
+    const std::size_t segments = ends ? source.run->count(source.output) : source.run->value(source.output).as<Poses>()->size();
+    if (segments == edges_->segments) continue;
+    refuse_counts("'" + plan_.description->inputs[p].name + "'", segments, "the graph of the edges", edges_->segments);
+  }
+}
+
+void StepRun::refuse_counts(const std::string& one, std::size_t have, const std::string& other, std::size_t wanted) const {
+  throw NestedError("step '" + plan_.path + "' (" + plan_.description->name + "): " + one + " has " + std::to_string(have) + " items where " + other +
+                    " has " + std::to_string(wanted) + "; wire what was cut alike, and if a store was changed by hand, run with --fresh");
 }
 
 void StepRun::adopt_items(std::vector<Hash128> keys, Source edges) {
@@ -58,8 +81,8 @@ bool StepRun::reuse(std::size_t k) {
   const bool store = state_.results.store() != nullptr;
   if (!store && keeping_ != Keeping::remembered) return false;
   const bool here = store && state_.results.in_store(key);
-  auto found = state_.results.find(key);
-  if (!found || found->outputs.size() != plan_.description->outputs.size()) return false;
+  auto found = find(key);
+  if (!found) return false;
   if (store && !here) say_again(*found);
   if (!state_.results.in_store(key)) pins_[k] = std::move(found);
   Stopwatch::item(item_name(k), state_.pass, true);
@@ -150,7 +173,7 @@ void StepRun::settle(std::vector<Failed> failed) {
 /// A result that left memory comes back from the store; what is gone from there (pruned, damaged) is made again.
 SharedResult StepRun::fetch(std::size_t k) {
   if (pins_[k]) return pins_[k];
-  if (auto found = state_.results.find(kept_keys_[k])) return found;
+  if (auto found = find(kept_keys_[k])) return found;
   if (inputs_.empty() && !plan_.description->inputs.empty())
     throw NestedError(title(k) + ": its result is gone from the store; run again, it is made anew");
   const Stopwatch watch(state_.books, plan_.path);

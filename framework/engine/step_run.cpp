@@ -51,8 +51,39 @@ void StepRun::start() {
 }
 
 void StepRun::join() {
-  if (itemwise()) find_items();
+  if (itemwise()) find_items(), require_segments_of_edges();
   if (keeping_ == Keeping::passing) asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
+}
+
+/// "" when a result has the outputs of this step, with values of their types and as many; what is wrong with it otherwise. What lies in a store was
+/// perhaps not made by the step.
+std::string StepRun::misfit_of(const StoredResult& result) const {
+  const auto& outputs = plan_.description->outputs;
+  if (const std::size_t n = result.outputs.size(); n != outputs.size())
+    return "has " + std::to_string(n) + " outputs where the step has " + std::to_string(outputs.size());
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const auto& values = result.outputs[o];
+    for (const AnyValue& value : values)
+      if (value.type != outputs[o].type) return std::string("holds ") + value.type->name + " where the step gives " + outputs[o].type->name;
+    if (const auto many = values_of(o); many && values.size() != *many)
+      return "holds " + std::to_string(values.size()) + " values of its output '" + outputs[o].name + "' where the step gives " +
+             std::to_string(*many);
+  }
+  return "";
+}
+
+/// How many values of an output are in a result of this step; none when only the step knows.
+std::optional<std::size_t> StepRun::values_of(std::size_t output) const {
+  const Emission emission = plan_.description->outputs[output].emission;
+  if (emission == Emission::one) return 1;
+  if (emission == Emission::lazy) return 0;
+  if (output < whole_keys_.size()) return whole_keys_[output].size();
+  const Source* over = source_over(output);
+  return over ? std::optional(over->run->count(over->output)) : std::nullopt;
+}
+
+SharedResult StepRun::find(const Hash128& key) {
+  return state_.results.find(key, [this](const StoredResult& result) { return misfit_of(result); });
 }
 
 /// What an earlier run or another process made: what its step said then is said again.
@@ -120,7 +151,7 @@ bool StepRun::adopt_result(std::size_t k) {
   Results& results = state_.results;
   if (!results.store()->contains(key)) return false;
   results.made_elsewhere(key, plan_.description->name);
-  const auto found = results.find(key);
+  const auto found = find(key);
   if (found) say_again(*found);
   return found != nullptr;
 }
@@ -150,6 +181,7 @@ AnyValue StepRun::value(int output, std::size_t k) {
   ItemContext context(state_.books, plan_.path, [&] { return whole_keys_[output][k].low; }, first && !state_.passed, &said);
   try {
     AnyValue value = lazy_[output].open(k, context);
+    require_sound(value, static_cast<std::size_t>(output));
     passed_bytes_ = std::max(passed_bytes_.load(), value.type->bytes(value.value.get()));
     if (first && state_.passed) state_.passed(*this, output, k, said);
     return value;

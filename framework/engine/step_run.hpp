@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -111,14 +112,17 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
-  std::pair<std::size_t, std::size_t> frames_of(std::size_t k) const;
+  std::pair<std::size_t, std::size_t> frames_of(std::size_t k, const Source& frames) const;
   std::size_t expected_bytes(std::size_t k);
   std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
   void run_fold(std::vector<PortOutput>& outputs, Context& context);
+  void require_sound(const AnyValue& value, std::size_t output) const;
   void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
   // step_items.cpp: the items of an item-wise step
   void find_items();
+  void require_segments_of_edges() const;
+  [[noreturn]] void refuse_counts(const std::string& one, std::size_t have, const std::string& other, std::size_t wanted) const;
   void start_items();
   void make_items_here();
   void make_items_elsewhere();
@@ -134,10 +138,14 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void make_whole_elsewhere();
   void name_values();
   void check_items(std::size_t output);
+  const Source* source_over(std::size_t output) const;
   SharedResult whole();
   // both
   const Hash128& key_of_call(std::size_t k) const { return itemwise() ? kept_keys_[k] : whole_key_; }
   bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
+  std::string misfit_of(const StoredResult& result) const;
+  std::optional<std::size_t> values_of(std::size_t output) const;
+  SharedResult find(const Hash128& key);
   void say_again(const StoredResult& result);
   void book(const Reply& reply);
   StoredResult result_of(std::vector<PortOutput>& outputs, StoredResult said) const;

@@ -49,8 +49,8 @@ bool StepRun::find_whole() {
   const bool store = state_.results.store() != nullptr;
   if (lazy() || !(store || (keeping_ == Keeping::remembered && single))) return false;
   const bool here = store && state_.results.in_store(whole_key_);
-  auto found = state_.results.find(whole_key_);
-  if (!found || found->outputs.size() != plan_.description->outputs.size()) return false;
+  auto found = find(whole_key_);
+  if (!found) return false;
   if (store && !here) say_again(*found);
   if (!state_.results.in_store(whole_key_) || stays_in_memory(*found)) whole_pin_ = std::move(found);
   return true;
@@ -79,11 +79,11 @@ void StepRun::make_whole_elsewhere() {
     }
     if (lazy()) {
       auto result = read_blob(whole_key_, reply.result);
-      if (!result) throw NestedError(title(0) + ": its worker gave a result that cannot be read; run again");
+      if (!result || !misfit_of(*result).empty()) throw NestedError(title(0) + ": its worker gave a result that cannot be read; run again");
       whole_pin_ = std::make_shared<const StoredResult>(std::move(*result));
     } else {
       state_.results.made_elsewhere(whole_key_, plan_.description->name);
-      auto found = state_.results.find(whole_key_);
+      auto found = find(whole_key_);
       if (!found) throw NestedError(title(0) + ": its result did not come into the store; is the folder the same for all processes?");
       if (stays_in_memory(*found)) whole_pin_ = std::move(found);
     }
@@ -114,17 +114,23 @@ void StepRun::name_values() {
 /// Many values that belong to the items of an input must be as many.
 void StepRun::check_items(std::size_t output) {
   const OutputDescription& port = plan_.description->outputs[output];
-  if (port.over.empty()) return;
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    if (plan_.description->inputs[p].name != port.over || inputs_[p].empty()) continue;
-    const Source& source = inputs_[p].front();
-    const std::size_t items = source.run->count(source.output), made = whole_keys_[output].size();
-    if (made != items)
-      throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" + port.name + "' has " +
-                  std::to_string(made) + " values where its input '" + port.over + "' has " + std::to_string(items) +
-                  "; the step must give one for each");
-    if (port.type->grain == Grain::edge) edges_source_ = source.run->edges_source(), edges_ = source.run->edges();
-  }
+  const Source* source = source_over(output);
+  if (!source) return;
+  const std::size_t items = source->run->count(source->output), made = whole_keys_[output].size();
+  if (made != items)
+    throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" + port.name + "' has " +
+                std::to_string(made) + " values where its input '" + port.over + "' has " + std::to_string(items) +
+                "; the step must give one for each");
+  if (port.type->grain == Grain::edge) edges_source_ = source->run->edges_source(), edges_ = source->run->edges();
+}
+
+/// The input to whose items the values of an output belong; null when they are items of their own.
+const Source* StepRun::source_over(std::size_t output) const {
+  const OutputDescription& port = plan_.description->outputs[output];
+  if (port.over.empty()) return nullptr;
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (plan_.description->inputs[p].name == port.over && !inputs_[p].empty()) return &inputs_[p].front();
+  return nullptr;
 }
 
 /// The result, back from the store if it left memory; made again if it is gone from there.

@@ -136,6 +136,14 @@ struct Stitch : WholeStep {
   }
 };
 
+/// Two pairs that carry two numbers.
+inline Matches noted(float first, float second) {
+  Matches matches;
+  matches.p.resize(2, Eigen::Vector3f::Zero()), matches.q.resize(2, Eigen::Vector3f::Zero());
+  matches.weight = {first, second};
+  return matches;
+}
+
 /// How far i's first target lies from j's first source.
 struct Lay : EdgeStep {
   struct In { OverEdges edges; Ends<Segment> targets, sources; };
@@ -147,9 +155,7 @@ struct Lay : EdgeStep {
     is.output("matches", &Out::matches, "");
   }
   Out run(const In& in, const Params&, Context&) const {
-    Matches matches;
-    matches.weight = {(in.targets.i->cloud.point(0) - in.sources.j->cloud.point(0)).norm(), 0};
-    return {matches};
+    return {noted((in.targets.i->cloud.point(0) - in.sources.j->cloud.point(0)).norm(), 0)};
   }
 };
 
@@ -166,9 +172,7 @@ struct Shift : EdgeStep {
   }
   Out run(const In& in, const Params& params, Context&) const {
     ++shifted_made;
-    Matches matches = *in.matches;
-    matches.weight = {static_cast<float>(in.poses.T_i_j.translation.norm()), static_cast<float>(params.gate)};
-    return {matches};
+    return {noted(static_cast<float>(in.poses.T_i_j.translation.norm()), static_cast<float>(params.gate))};
   }
 };
 

@@ -2,6 +2,12 @@
 #
 # Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
 # (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
+# A module is loaded only from where nobody else may write, whatever the umask of who builds it: plumb_close_folder(FOLDER) makes such a folder.
+function(plumb_close_folder folder)
+  file(MAKE_DIRECTORY ${folder})
+  file(CHMOD ${folder} DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+endfunction()
+
 function(plumb_add_step step)
   cmake_parse_arguments(arg "NOT_INSTALLED" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
   if(NOT arg_SOURCES)
@@ -28,7 +34,9 @@ function(plumb_add_step step)
   add_dependencies(plumb_modules step_${id})
   if(TARGET plumb_manifest)
     add_custom_command(TARGET step_${id} POST_BUILD
+                       COMMAND chmod go-w $<TARGET_FILE:step_${id}>
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
+                       COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
                        COMMENT "Manifest of ${step}")
     add_dependencies(step_${id} plumb_manifest)
   endif()

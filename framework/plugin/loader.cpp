@@ -4,6 +4,7 @@
 
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/registry.hpp"
+#include "plumb/plugin/trusted_file.hpp"
 
 namespace plumb {
 
@@ -14,7 +15,9 @@ const char* abi_tag() {
 
 std::vector<const Step*> load_module(const std::filesystem::path& file) {
   const std::string name = file.string();
-  void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  // Only root and this user can change what lies there between here and dlopen: that is what is asked.
+  if (const std::string fault = fault_of_file(file); !fault.empty()) throw Error(name + ": is not loaded: " + fault);
+  void* handle = dlopen(std::filesystem::canonical(file).c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle) {
     const char* why = dlerror();
     throw Error(name + ": cannot be loaded: " + (why ? why : "unknown reason"));

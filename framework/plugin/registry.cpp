@@ -1,8 +1,5 @@
 #include "plumb/plugin/registry.hpp"
 
-#include <dlfcn.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -10,26 +7,35 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/manifest.hpp"
+#include "plumb/plugin/trusted_file.hpp"
 
 namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-/// Why a folder may not be searched; empty if it may.
-std::string fault_of_folder(const fs::path& folder) {
-  struct stat info {};
-  if (stat(folder.c_str(), &info) != 0) return "there is no such folder";
-  if (!S_ISDIR(info.st_mode)) return "is no folder";
-  if (info.st_mode & S_IWOTH)
-    return "others may write into it, so anyone could put code there; `chmod o-w` it";
-  return "";
+constexpr std::uint64_t largest_manifest = std::uint64_t{16} << 20;
+
+/// The modules of a folder, by name.
+std::vector<fs::path> modules_in(const fs::path& folder) {
+  std::vector<fs::path> modules;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".so") modules.push_back(entry->path());
+  if (error) throw Error("cannot be searched (" + error.message() + ")");
+  std::sort(modules.begin(), modules.end());
+  return modules;
 }
 
-fs::path folder_of_this_library() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&abi_tag), &info) && info.dli_fname)
-    return fs::weakly_canonical(info.dli_fname).parent_path();
-  return {};
+/// What a module declares. Throws Error: it, or its manifest, is none that may be used.
+Manifest manifest_of(const fs::path& module) {
+  if (const std::string fault = fault_of_file(module); !fault.empty()) throw Error(fault);
+  const fs::path file = fs::path(module).replace_extension(".json");
+  if (!fs::exists(file)) throw Error("has no manifest beside it; `plumb_manifest` makes one, the build runs it");
+  if (const std::string fault = fault_of_file(file); !fault.empty()) throw Error("its manifest " + file.string() + " " + fault);
+  Manifest manifest = read_manifest(std::string(io::FileBytes(file, largest_manifest, "manifest").view()), file.string());
+  if (manifest.abi_tag != abi_tag())
+    throw Error("was built for another Plumb: it has '" + manifest.abi_tag + "', this one has '" + abi_tag() + "'; build the module again with this SDK");
+  return manifest;
 }
 
 }  // namespace
@@ -50,41 +56,28 @@ std::vector<fs::path> Registry::standard_folders(const std::vector<fs::path>& ex
 Registry Registry::scan(const std::vector<fs::path>& folders) {
   Registry registry;
   registry.folders_ = folders;
-  for (const fs::path& folder : folders) {
-    if (const std::string fault = fault_of_folder(folder); !fault.empty()) {
-      registry.refused_.push_back({folder, fault});
-      continue;
+  for (const fs::path& folder : folders) try {
+      if (const std::string fault = fault_of_folder(folder); !fault.empty()) throw Error(fault);
+      for (const fs::path& module : modules_in(folder)) registry.take(module);
+    } catch (const Error& e) {
+      registry.refused_.push_back({folder, e.what()});
     }
-    std::vector<fs::path> modules;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".so") modules.push_back(entry.path());
-    std::sort(modules.begin(), modules.end());
-    for (const fs::path& module : modules) {
-      const fs::path file = fs::path(module).replace_extension(".json");
-      if (!fs::exists(file)) {
-        registry.refused_.push_back({module, "has no manifest beside it; `plumb_manifest` makes one, the build runs it"});
-        continue;
-      }
-      try {
-        constexpr std::uint64_t most = std::uint64_t{4} << 20;
-        Manifest manifest = read_manifest(std::string(io::FileBytes(file, most, "manifest").view()), file.string());
-        if (manifest.abi_tag != abi_tag())
-          throw Error("was built for another Plumb: it has '" + manifest.abi_tag + "', this one has '" +
-                      abi_tag() + "'; build the module again with this SDK");
-        for (StepDescription& step : manifest.steps) {
-          step.module = module.string();
-          const auto [at, is_new] = registry.entries_.try_emplace(step.name);
-          if (is_new) at->second.description = std::move(step);
-          else
-            registry.refused_.push_back({module, "step " + at->first + " was already found in " +
-                                                     at->second.description.module});
-        }
-      } catch (const std::exception& e) {
-        registry.refused_.push_back({module, e.what()});
-      }
-    }
-  }
   return registry;
+}
+
+/// Takes the steps of a module, or writes down why not.
+void Registry::take(const fs::path& module) {
+  try {
+    Manifest manifest = manifest_of(module);
+    for (StepDescription& step : manifest.steps) {
+      step.module = module.string();
+      const auto [at, is_new] = entries_.try_emplace(step.name);
+      if (is_new) at->second.description = std::move(step);
+      else refused_.push_back({module, "step " + at->first + " was already found in " + at->second.description.module});
+    }
+  } catch (const std::exception& e) {
+    refused_.push_back({module, e.what()});
+  }
 }
 
 void Registry::add(const Step& step) {

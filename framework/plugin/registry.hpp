@@ -18,7 +18,7 @@ struct Refusal {
 };
 
 /// Modules are looked for in the build's or installation's own folder, then in each `--plugin-path`, then in PLUMB_PLUGIN_PATH;
-/// never in the working folder by itself, never in a folder that others may write. The first to offer a step has it.
+/// never in the working folder by itself. Neither folders nor files are taken that others may have written (trusted_file.hpp). The first to offer a step has it.
 class Registry {
  public:
   /// Reads all manifests (*.json beside the modules) of `folders`.
@@ -40,6 +40,7 @@ class Registry {
   const Step& step(const std::string& name) const;
 
  private:
+  void take(const std::filesystem::path& module);
   struct Entry {
     StepDescription description;
     const Step* step = nullptr;  // of add()
@@ -49,7 +50,8 @@ class Registry {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// Loads a module for good (dlopen, never closed) and returns its steps. Throws Error naming the file and what does not fit.
+/// Loads a module for good (dlopen, never closed) and returns its steps. Throws Error naming the file and what does not fit, and, before any of its code
+/// runs, when others may have written it.
 std::vector<const Step*> load_module(const std::filesystem::path& file);
 
 /// This library's own ABI tag.

@@ -10,6 +10,12 @@ namespace {
 constexpr std::string_view magic = "plumb blob 2\n";
 constexpr std::size_t sum_size = 2 * sizeof(std::uint64_t);
 
+/// Another program may know it.
+class UnknownType : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Places are counted from the first byte of the file: arrays are aligned there.
 std::optional<BlobHead> take_head(const Hash128& key, InArchive& in) {
   std::array<char, magic.size()> seen;
@@ -21,7 +27,19 @@ std::optional<BlobHead> take_head(const Hash128& key, InArchive& in) {
   return head;
 }
 
-std::optional<StoredResult> take_result(InArchive& in) {
+/// One value, such as a step may give it.
+AnyValue take_any(InArchive& in) {
+  std::string name;
+  int version = 0;
+  in(name, version);
+  const Type* type = find_type(name);
+  if (!type || type->version != version) throw UnknownType("holds values of a type that this program does not know");
+  AnyValue value{type, type->read(in)};
+  if (const char* fault = type->fault(value.value.get()); *fault) throw Error(std::string("holds ") + fault);
+  return value;
+}
+
+StoredResult take_result(InArchive& in) {
   StoredResult result;
   std::uint64_t outputs = 0, count = 0;
   in(outputs);
@@ -29,14 +47,7 @@ std::optional<StoredResult> take_result(InArchive& in) {
     std::uint64_t values = 0;
     in(values);
     auto& to = result.outputs.emplace_back();
-    for (std::uint64_t v = 0; v < values; ++v) {
-      std::string name;
-      int version = 0;
-      in(name, version);
-      const Type* type = find_type(name);
-      if (!type || type->version != version) return std::nullopt;
-      to.push_back({type, type->read(in)});
-    }
+    for (std::uint64_t v = 0; v < values; ++v) to.push_back(take_any(in));
   }
   in(count);
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -44,7 +55,7 @@ std::optional<StoredResult> take_result(InArchive& in) {
     in(what, number);
   }
   in(result.warnings);
-  if (!in.at_end()) return std::nullopt;
+  if (!in.at_end()) throw Error("has bytes left over");
   return result;
 }
 
@@ -105,19 +116,32 @@ void give_blob(const Hash128& key, const StoredResult& result, std::string_view 
   take(end.text);
 }
 
-std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes) {
-  const std::string_view body = body_of(bytes);
-  if (body.empty()) return std::nullopt;
+std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes, std::string* why) {
   try {
+    const std::string_view body = body_of(bytes);
     InArchive in(body);
-    if (!take_head(key, in)) return std::nullopt;
+    if (body.empty() || !take_head(key, in)) throw Error("was cut or altered");
     return take_result(in);
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    if (why) *why = e.what();
     return std::nullopt;
   }
 }
 
-std::optional<BlobHead> check_blob(const Hash128& key, std::string_view bytes) { return read_head(key, body_of(bytes)); }
+std::optional<BlobHead> check_blob(const Hash128& key, std::string_view bytes) {
+  try {
+    const std::string_view body = body_of(bytes);
+    InArchive in(body);
+    auto head = body.empty() ? std::nullopt : take_head(key, in);
+    if (head) try {
+        take_result(in);
+      } catch (const UnknownType&) {
+      }
+    return head;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
 
 std::optional<BlobHead> read_head(const Hash128& key, std::string_view beginning) {
   try {

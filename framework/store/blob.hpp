@@ -29,10 +29,11 @@ std::size_t size_of_blob(const StoredResult& result);
 /// As blob_of, handed on piece by piece, so that a big one is never in memory a second time.
 void give_blob(const Hash128& key, const StoredResult& result, std::string_view step, const std::function<void(std::string_view)>& take);
 
-/// Reads them back. None: another key, cut, altered, or values of a type or version that this program does not know.
-std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes);
+/// Reads them back. None, and why if that is asked: another key, cut, altered, values of a type or version that this program does not know, or one that
+/// no step may give (data/fault.hpp), which a right checksum does not make good.
+std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes, std::string* why = nullptr);
 
-/// The head, when the bytes are whole: this key, and the checksum fits. What values they hold is not looked at.
+/// The head, when the bytes are whole: this key, the checksum fits, and the values are such as a step may give, as far as this program knows their types.
 std::optional<BlobHead> check_blob(const Hash128& key, std::string_view bytes);
 
 /// The head from the beginning of a blob alone, whose rest is not looked at. None: it is no blob, or another key's.

@@ -37,6 +37,23 @@ bool sync_path(const fs::path& path) {
   return done == 0 || why == EINVAL || why == ENOTSUP;  // a file system that knows no such thing for folders
 }
 
+bool is_own(const struct stat& at) { return (at.st_uid == geteuid() || at.st_uid == 0) && !(at.st_mode & (S_IWGRP | S_IWOTH)); }
+
+/// Opens what is a regular file itself, and never waits: a pipe may have nobody at its other end. -1 when there is none, when it cannot be read, and,
+/// with the reason, when it is refused.
+int open_regular(const fs::path& file, Whose whose, struct stat& at, std::string& refused) {
+  const int from = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (from < 0) {
+    if (errno == ELOOP || errno == ENXIO) refused = "is no regular file";  // a link, a socket
+    return from;
+  }
+  if (fstat(from, &at) != 0 || !S_ISREG(at.st_mode)) refused = "is no regular file";
+  else if (whose == Whose::own && !is_own(at)) refused = "belongs to another user, or may be written by others";
+  if (refused.empty()) return from;
+  close(from);
+  return -1;
+}
+
 }  // namespace
 
 fs::path blob_file(const fs::path& store, const Hash128& key) {
@@ -48,13 +65,29 @@ void for_each_blob(const fs::path& store, const std::function<void(const Hash128
   std::error_code error;
   for (fs::directory_iterator part(store / "blobs", error), end; !error && part != end; part.increment(error)) {
     std::error_code gone;  // a folder that is no folder, or went away
+    if (part->is_symlink(gone)) continue;
     for (fs::directory_iterator file(part->path(), gone); !gone && file != end; file.increment(gone))
       if (const auto key = key_of(file->path().filename().string())) visit(*key, file->path());
   }
 }
 
+std::string why_refused(const fs::path& file, Whose whose) {
+  struct stat at{};
+  std::string refused;
+  if (const int from = open_regular(file, whose, at, refused); from >= 0) close(from);
+  return refused;
+}
+
+std::optional<std::uint64_t> size_of_file(const fs::path& file) {
+  struct stat at{};
+  if (lstat(file.c_str(), &at) != 0 || !S_ISREG(at.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(at.st_size);
+}
+
 std::optional<BlobHead> head_in(const fs::path& file, const Hash128& key) {
-  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat at{};
+  std::string refused;
+  const int from = open_regular(file, Whose::anyones, at, refused);
   if (from < 0) return std::nullopt;
   std::array<char, blob_head_size> bytes;
   const ssize_t n = read(from, bytes.data(), bytes.size());
@@ -67,7 +100,7 @@ bool write_whole(const fs::path& file, std::string_view bytes) {
 }
 
 bool write_pieces(const fs::path& file, const std::function<void(const Take& take)>& give) {
-  const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const int to = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (to < 0) return false;
   bool good = true;
   int why = 0;
@@ -108,14 +141,12 @@ void remove_unfinished(const fs::path& store) {
   for (const fs::path& file : left) unlink(file.c_str());
 }
 
-MappedFile::MappedFile(const fs::path& file) {
-  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (from < 0) return;
+MappedFile::MappedFile(const fs::path& file, Whose whose) {
   struct stat at{};
-  if (fstat(from, &at) == 0 && S_ISREG(at.st_mode)) {
-    there_ = true;
-    size_ = static_cast<std::size_t>(at.st_size);
-  }
+  const int from = open_regular(file, whose, at, refused_);
+  if (from < 0) return;
+  there_ = true;
+  size_ = static_cast<std::size_t>(at.st_size);
   if (size_ > 0) {
     begin_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, from, 0);  // all of it is read twice, at once
     if (begin_ == MAP_FAILED) begin_ = nullptr, size_ = 0, there_ = false;

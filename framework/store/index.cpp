@@ -31,7 +31,7 @@ void fields(Archive& a, T& fact) {
   a(fact.name, fact.value);
 }
 
-Index::Index(std::filesystem::path store) : store_(std::move(store)) { open(); }
+Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) { open(); }
 Index::~Index() { close(); }
 
 /// Runs what asks the database. When that is found to be damaged it is made anew and asked again; what else is wrong ends its use.
@@ -146,9 +146,8 @@ void Index::write(Database& database, const Notes& notes) {
       if (database.changed() > 0) continue;
       if (known.with(key).next()) refuse_row("results");
       const auto file = blob_file(store_, key);  // made by a run that was killed before it could say so
-      std::error_code error;
-      const auto bytes = std::filesystem::file_size(file, error);
-      if (const auto head = head_in(file, key); head && !error) put.with(key, head->step, bytes, note.time, note.time).run();
+      const auto bytes = size_of_file(file);
+      if (const auto head = head_in(file, key); head && bytes) put.with(key, head->step, *bytes, note.time, note.time).run();
     }
   }
   Statement put_facts(database, "INSERT OR REPLACE INTO facts VALUES(?1, ?2, ?3, ?4, row_sum(?1, ?2, ?3, ?4))");
@@ -168,12 +167,12 @@ void Index::follow_files(Database& database) {
   for_each_blob(store_, [&](const Hash128& key, const std::filesystem::path& blob) {
     if (without.erase(key) > 0) return;
     std::error_code error;
-    const auto bytes = std::filesystem::file_size(blob, error);
+    const auto bytes = size_of_file(blob);
     const auto written = std::filesystem::last_write_time(blob, error);
     const auto head = head_in(blob, key);
-    if (error || !head) return;  // gone, or no blob: whoever looks for it will tell
+    if (error || !bytes || !head) return;  // gone, or no blob: whoever looks for it will tell
     const auto made = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::file_clock::to_sys(written).time_since_epoch()).count();
-    put.with(key, head->step, bytes, made, made).run();
+    put.with(key, head->step, *bytes, made, made).run();
   });
   for (const Hash128& key : without) take.with(key).run();
   transaction.commit();

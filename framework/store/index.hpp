@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plumb/data/hash.hpp"
+#include "plumb/store/whose.hpp"
 
 namespace plumb {
 
@@ -45,7 +46,7 @@ struct Fact {
 /// share an index.
 class Index {
  public:
-  explicit Index(std::filesystem::path store);
+  explicit Index(std::filesystem::path store, Whose whose = Whose::own);
   ~Index();  ///< flushes
   Index(const Index&) = delete;
   Index& operator=(const Index&) = delete;
@@ -111,6 +112,7 @@ class Index {
   std::filesystem::path file() const { return store_ / "index.sqlite"; }
 
   std::filesystem::path store_;
+  Whose whose_;
   int lock_ = -1;
   std::mutex notes_mutex_, database_mutex_;
   mutable std::mutex said_mutex_;

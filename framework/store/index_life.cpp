@@ -48,6 +48,14 @@ bool is_as_left(const fs::path& index, const fs::path& sum) {
   return !now.empty() && MappedFile(sum).bytes() == now;
 }
 
+/// What of the database SQLite must not open: it would follow a link, and wait for a pipe. "" when it may.
+std::string not_to_be_opened(const fs::path& index, Whose whose) {
+  for (const char* part : {"", "-wal", "-shm"})
+    if (const std::string why = why_refused(beside(index, part), whose); !why.empty())
+      return "its file '" + beside(index, part).filename().string() + "' " + why;
+  return "";
+}
+
 void remove_database(const fs::path& index) {
   for (const char* part : {"", "-wal", "-shm", "-journal"}) unlink(beside(index, part).c_str());
 }
@@ -56,7 +64,9 @@ void remove_database(const fs::path& index) {
 
 void Index::open() {
   const auto refuse = [this] { fail(std::strerror(errno)); };
-  lock_ = ::open((store_ / "index.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const fs::path lock = store_ / "index.lock";
+  if (const std::string why = why_refused(lock, Whose::anyones); !why.empty()) return fail("its lock '" + lock.string() + "' " + why + "; remove it");
+  lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (lock_ < 0) return refuse();
   try {
     for (bool open = false; !open;) {
@@ -76,15 +86,20 @@ void Index::open() {
   }
 }
 
-void Index::connect() { database_ = std::make_unique<Database>(file()); }
+void Index::connect() {
+  if (const std::string why = not_to_be_opened(file(), whose_); !why.empty()) throw DatabaseError(DatabaseError::Cause::damage, why);
+  database_ = std::make_unique<Database>(file());
+}
 
 /// Under the lock alone: leaves a sound index, in use.
 void Index::mend() {
   remove_unfinished(store_);
   const fs::path sum = sum_of(store_);
   const bool closed = is_there(sum), there = is_there(file());
-  std::string why;
-  if (closed) {
+  std::string why = not_to_be_opened(file(), whose_);
+  if (!why.empty()) {
+    unlink(sum.c_str());
+  } else if (closed) {
     if (!is_as_left(file(), sum)) why = there ? "its bytes are not those that were left" : "its file is gone";
     if (unlink(sum.c_str()) != 0) throw DatabaseError(DatabaseError::Cause::system, std::strerror(errno));
     if (why.empty()) return;

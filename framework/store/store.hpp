@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "plumb/data/type.hpp"
+#include "plumb/store/whose.hpp"
 
 namespace plumb {
 
@@ -27,6 +29,9 @@ class Index;
 /// machines, and drivers that share a store must run on one.
 enum class StoreRole { driver, worker };
 
+/// What was looked for and not found good in a result: "" for nothing.
+using FaultOf = std::function<std::string(const StoredResult&)>;
+
 /// A folder of results under their keys, a file each:
 ///
 ///     DIR/plumb-store            "plumb store 2"
@@ -36,16 +41,19 @@ enum class StoreRole { driver, worker };
 ///
 /// A result is written to `new` and renamed, so that it is there whole or not at all after a kill; what a power cut tore is told by its checksum. Several
 /// runs of one machine, and workers on any, may share a folder. All functions are safe from several threads.
+///
+/// What lies in a store is believed no more than what a step gives: values are checked when they are read (data/fault.hpp), only regular files are, and links
+/// are not followed. The folder is made for this user alone; one that others own or may write is refused, as are such files in it, unless that is asked for.
 class Store {
  public:
-  /// Opens or makes the folder. Throws Error: it is no store and not empty, a store of another format, or cannot be written.
-  explicit Store(const std::filesystem::path& folder, StoreRole role = StoreRole::driver);
+  /// Opens or makes the folder. Throws Error: it is no store and not empty, a store of another format, another's, or cannot be written.
+  explicit Store(const std::filesystem::path& folder, StoreRole role = StoreRole::driver, Whose whose = Whose::own);
   ~Store();  ///< syncs
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// The result under `key`; none when there is none, or when it is damaged: then its file is removed.
-  std::optional<StoredResult> find(const Hash128& key);
+  /// The result under `key`; none when there is none, or when it is damaged or `fault_of` finds one: then its file is removed.
+  std::optional<StoredResult> find(const Hash128& key, const FaultOf& fault_of = nullptr);
   /// Keeps a result of a step (its registered name). A disk that does not take it costs the keeping and no more: then false, and the first such fault is
   /// remembered.
   bool put(const Hash128& key, const StoredResult& result, std::string_view step);
@@ -62,7 +70,10 @@ class Store {
 
   const std::filesystem::path& folder() const { return folder_; }
   Index* index() { return index_.get(); }  ///< none for a worker
+  Whose whose() const { return whose_; }
   std::size_t damaged() const { return damaged_; }
+  /// The first of them, and what was wrong with it; empty when there was none.
+  std::string damage() const;
   /// The first reason why a result could not be kept; empty when there was none.
   std::string fault() const;
   /// Why the index had to be made anew from the results; empty when it had not.
@@ -71,14 +82,22 @@ class Store {
   std::string index_fault() const;
 
  private:
+  void make_folder(StoreRole role) const;
+  void judge() const;
+  void read_mark() const;
+  void require_folders() const;
+  [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void refuse_unwritable(int why) const;
+  void damage(const Hash128& key, const std::string& why);  ///< removes it, and remembers the first
   bool fail(const std::string& why);  ///< remembers the first; false
 
-  std::filesystem::path folder_;
+  std::filesystem::path given_, folder_;
+  Whose whose_;
   std::unique_ptr<Index> index_;
   std::atomic<std::size_t> damaged_ = 0, written_ = 0;
   std::atomic<bool> failed_ = false;
   std::string token_;  ///< of this process among all that write into the folder, on whatever machine
-  std::string fault_;
+  std::string fault_, damage_;
 };
 
 }  // namespace plumb

@@ -81,8 +81,9 @@ TEST(Store, MakesAgainWhateverByteOfAFileChanged) {
 
 TEST(Store, LaysArraysWhereTheyCanBeMapped) {
   Segment segment;
-  segment.cloud = io::full_cloud(77);
-  segment.frame = {7, 8, 9};
+  segment.range.end = 10;
+  segment.range.T_segment_frame.resize(10);
+  segment = segment.with(io::full_cloud(77), std::vector<std::uint16_t>(77, 9));
   const std::string blob = blob_of({1, 2}, {{{any_value(segment)}}, {}, {}}, "a.step");
   const auto place_of = [&](const auto& array) {
     return blob.find(std::string_view(reinterpret_cast<const char*>(array.data()), array.size() * sizeof array[0]));
@@ -112,6 +113,8 @@ TEST(Store, LetsWorkersLeaveTheIndexAlone) {
     EXPECT_THROW(Store(folder.path() / "store", StoreRole::worker), Error);  // the run makes it
     fs::create_directory(folder.path() / "store");
     std::ofstream(folder.path() / "store/plumb-store") << "plumb store 2\n";
+    for (const char* made : {"store", "store/plumb-store"})
+      fs::permissions(folder.path() / made, fs::perms::group_write | fs::perms::others_write, fs::perm_options::remove);
     Store worker(folder.path() / "store", StoreRole::worker);
     worker.put({1, 2}, small_result(5), "a.step");
     EXPECT_FALSE(worker.index());

@@ -38,8 +38,8 @@ Verified verify(Store& store) {
     for (IndexRow& row : index->rows()) rows[row.key] = std::move(row);
   Verified verified;
   for_each_blob(store.folder(), [&](const Hash128& key, const fs::path& file) {
-    const MappedFile mapped(file);
-    if (!mapped.there()) return;  // pruned meanwhile
+    const MappedFile mapped(file, store.whose());
+    if (!mapped.there() && mapped.refused().empty()) return;  // pruned meanwhile
     ++verified.results;
     verified.bytes += mapped.bytes().size();
     const auto row = rows.find(key);

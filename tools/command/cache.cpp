@@ -38,7 +38,7 @@ std::unique_ptr<Store> existing(const Options& options) {
   if (folder.empty())
     throw Error(options.store.none() ? "--store none: there is nothing to look after; name a folder"
                                      : "neither XDG_CACHE_HOME nor HOME names a folder; say by --store DIR which store is meant");
-  if (std::filesystem::exists(folder)) return std::make_unique<Store>(folder);
+  if (std::filesystem::exists(folder)) return options.store.open(folder);
   std::cout << folder.string() << ": nothing is kept yet\n";
   return nullptr;
 }
@@ -113,7 +113,7 @@ void add_cache(CLI::App& app) {
   less->add_option("--older", options->older, "Removes what was not used for this long: 12h, 30d, 8w");
   less->add_option("--size", options->size, "Removes until no more than this is left: 500MB, 10GiB");
   less->footer("Example: plumb cache prune --older 30d --size 10GiB");
-  for (auto* sub : {check, less}) sub->fallthrough();  // --store behind the sub-command is the command's own
+  for (auto* sub : {check, less}) sub->fallthrough();  // --store and --trust-store behind the sub-command are the command's own
   check->callback([options] { verify_store(*options); });
   less->callback([options] { prune_store(*options); });
   command->callback([command, options] {

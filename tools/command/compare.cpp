@@ -258,6 +258,7 @@ void add_compare(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--store", options->store.given,
                       "Folder in which results are kept, as for run; what is taken from there counts as no time, so that by itself compare uses none");
+  options->store.add_trust_to(*command);
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(

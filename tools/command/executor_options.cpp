@@ -39,6 +39,7 @@ std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t 
   }
   WorkerCommand worker;
   worker.store = store->folder();
+  worker.trusted = store->whose() == Whose::anyones;
   worker.contents = verify_inputs;
   WorkerOptions workers;
   workers.workers = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());

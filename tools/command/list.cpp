@@ -62,8 +62,7 @@ void add_list(CLI::App& app) {
     const Registry steps = installed_steps();
     for (const StepDescription* step : steps.all())
       std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind) << step->summary << "\n";
-    if (!steps.refused().empty())
-      std::cerr << steps.refused().size() << " refused; `plumb doctor` says why\n";
+    for (const Refusal& refusal : steps.refused()) std::cerr << "refused: " << refusal.file.string() << ": " << refusal.why << "\n";
   });
 }
 

@@ -29,7 +29,7 @@ bool is_connected(const Options& options) { return options.task.empty() && fcntl
 void run(Options& options) {
   if (options.task.empty() && !is_connected(options))
     throw Error("worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor slurm', not by hand");
-  Store store(options.worker.store, StoreRole::worker);
+  Store store(options.worker.store, StoreRole::worker, options.worker.trusted ? Whose::anyones : Whose::own);
   if (!options.task.empty()) {
     WorkerOptions workers;
     workers.command = words_of(options.worker);
@@ -57,6 +57,7 @@ void add_worker(CLI::App& app) {
   auto* command = app.add_subcommand("worker", "Makes calls for a run: started by run --isolate and by Slurm jobs");
   auto options = std::make_shared<Options>();
   command->add_option("--store", options->worker.store, "Folder of the run's results")->required();
+  command->add_flag("--trust-store", options->worker.trusted, "The store may be anyone's");
   command->add_option("--memory", options->worker.memory, "What the process may allocate [bytes]; 0 for no bound");
   command->add_flag("--contents", options->worker.contents, "Input files count by their content");
   command->add_option("--task", options->task, "The calls of a Slurm job");

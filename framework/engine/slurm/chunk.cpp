@@ -6,6 +6,7 @@
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/slurm/job_folder.hpp"
+#include "plumb/store/blob_file.hpp"
 
 namespace plumb {
 
@@ -17,6 +18,7 @@ void make_chunk(const std::filesystem::path& file, std::size_t number, std::size
     if (!store.contains(task.calls[c].key)) calls.push_back(task.calls[c]);
   task.calls = std::move(calls);
   const auto to = file.parent_path() / "replies" / (file.stem().string() + "." + std::to_string(number));
+  if (const std::string why = why_refused(to, Whose::anyones); !why.empty()) throw Error(to.string() + ": " + why + "; remove it");
   std::ofstream out(to, std::ios::binary | std::ios::app);
   std::mutex mutex;
   const auto write = [&](const Notice& notice) {

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include "plumb/data/error.hpp"
@@ -18,11 +17,17 @@ void write_file(const fs::path& file, const std::string& bytes) {
   if (!replace_whole(file, bytes)) throw Error(file.string() + ": cannot be written (" + std::strerror(errno) + "); is the store's disk full?");
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return std::move(text).str();
+std::string text_of(const fs::path& file) { return std::string(MappedFile(file).bytes()); }
+
+/// The Notice at a place of a chunk's file, and the place behind it; none when it is being written, or was cut by a kill.
+std::optional<Notice> notice_at(std::string_view bytes, std::uintmax_t& place) {
+  std::uint64_t size = 0;
+  if (place > bytes.size() || bytes.size() - place < sizeof size) return std::nullopt;
+  std::memcpy(&size, bytes.data() + place, sizeof size);
+  if (size > bytes.size() - place - sizeof size) return std::nullopt;
+  const auto begin = static_cast<std::size_t>(place) + sizeof size;
+  place = begin + size;
+  return from_bytes<Notice>(bytes.substr(begin, size));
 }
 
 }  // namespace
@@ -50,20 +55,11 @@ std::vector<Notice> JobFolder::news() {
   std::vector<Notice> news;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder_ / "replies", error)) {
-    std::ifstream in(entry.path(), std::ios::binary);
+    const MappedFile file(entry.path());
     std::uintmax_t& place = read_[entry.path()];
-    in.seekg(static_cast<std::streamoff>(place));
-    for (;;) {
-      std::uint64_t size = 0;
-      if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > (std::uint64_t{1} << 32)) break;
-      std::string bytes(size, '\0');
-      if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) break;  // being written, or cut by a kill
-      place += sizeof size + size;
-      try {
-        news.push_back(from_bytes<Notice>(bytes));
-      } catch (const Error&) {
-        break;
-      }
+    try {
+      while (auto notice = notice_at(file.bytes(), place)) news.push_back(std::move(*notice));
+    } catch (const Error&) {  // the next time goes on behind it
     }
   }
   return news;

@@ -109,17 +109,19 @@ def test_doctor_refuses_a_folder_that_others_may_write_into(folder):
     loose = folder / "loose"
     loose.mkdir()
     loose.chmod(0o777)
-    plumb("--plugin-path", loose, "doctor", code=WRONG_INPUT).has("refused", str(loose), "chmod o-w")
+    plumb("--plugin-path", loose, "doctor", code=WRONG_INPUT).has("refused", str(loose), "may be written by everybody", "chmod go-w")
     plumb("doctor", environment={"PLUMB_PLUGIN_PATH": str(folder / "none")}, code=WRONG_INPUT).has("there is no such folder")
 
 
 def test_doctor_refuses_a_file_that_is_no_module(folder):
     folder.chmod(0o755)
     (folder / "filter.torn.so").write_text("not a module")
+    (folder / "filter.torn.so").chmod(0o644)
     plumb("--plugin-path", folder, "doctor", code=WRONG_INPUT).has("filter.torn.so", "manifest")
     (folder / "filter.torn.json").write_text('{"plumb_manifest": ')
+    (folder / "filter.torn.json").chmod(0o644)
     plumb("--plugin-path", folder, "doctor", code=WRONG_INPUT).has("refused", "filter.torn")
-    plumb("--plugin-path", folder, "list").has("1 refused; `plumb doctor` says why")
+    plumb("--plugin-path", folder, "list").has("refused: " + str(folder / "filter.torn.so"), "not a manifest that can be used")
 
 
 def test_simulate_writes_a_sequence_and_the_scene_that_repeats_it(folder):

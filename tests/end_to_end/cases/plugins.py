@@ -71,15 +71,16 @@ def refuses_the_cascade(folder, step, **options):
 
 
 def installation(folder):
-    """The command and its modules, linked into a folder where single modules can be changed. Returns (program, modules, environment)."""
+    """The command and its modules, copied into a folder where single modules can be changed. Returns (program, modules, environment)."""
     modules = folder / "lib/plumb"
     modules.mkdir(parents=True)
+    modules.chmod(0o755)
     (folder / "bin").mkdir()
     shutil.copy(PLUMB, folder / "bin/plumb")
     library = next((BUILD / "lib").glob("libplumb.so.*.*"))
     shutil.copy(library, folder / "lib/libplumb.so.0")
     for file in (BUILD / "lib/plumb").iterdir():
-        (modules / file.name).symlink_to(file)
+        shutil.copy(file, modules / file.name)
     return folder / "bin/plumb", modules, {"LD_LIBRARY_PATH": str(folder / "lib")}
 
 
@@ -143,6 +144,137 @@ def test_a_crashing_module_is_named_by_doctor(folder):
     kmeans.unlink()
     run("cc", "-shared", "-fPIC", folder / "crash.c", "-o", kmeans)
     plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("prune.kmeans.so", "crashes when it is loaded")
+
+
+def refused_module(folder, change, *words):
+    """A module that would leave a trace when it is loaded, and what `change(module, its folder)` makes of it: it is named, and never loaded."""
+    folder.mkdir(exist_ok=True)
+    trace = folder / "trace"
+    (folder / "trace.c").write_text("#include <fcntl.h>\n__attribute__((constructor)) static void trace(void) "
+                                    f'{{ open("{trace}", O_CREAT | O_WRONLY, 0600); }}\n')
+    program, modules, environment = installation(folder)
+    kmeans = modules / "prune.kmeans.so"
+    kmeans.unlink()
+    run("cc", "-shared", "-fPIC", folder / "trace.c", "-o", kmeans)
+    kmeans.chmod(0o755)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("no module of Plumb")
+    assert trace.exists(), "a module that may be loaded was not: this test would not notice one that is"
+    trace.unlink()
+    change(kmeans, modules)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("refused: " + str(modules), *words)
+    plumb("list", program=program, environment=environment).has("refused: " + str(modules), *words)
+    refuses_the_cascade(folder, "prune.kmeans", program=program, environment=environment)
+    assert not trace.exists(), "code of a refused module ran"
+
+
+def needs_a_compiler():
+    if not shutil.which("cc"):
+        skip("no C compiler on this machine")
+
+
+def needs_root():
+    if os.geteuid() != 0:
+        skip("only root can give files away")
+
+
+def test_a_module_that_its_group_may_write_is_not_loaded(folder):
+    needs_a_compiler()
+    refused_module(folder, lambda module, _: module.chmod(0o775), "prune.kmeans.so", "may be written by its group (mode 0775)", "chmod go-w")
+
+
+def test_a_module_that_everybody_may_write_is_not_loaded(folder):
+    needs_a_compiler()
+    refused_module(folder, lambda module, _: module.chmod(0o666), "prune.kmeans.so", "may be written by everybody (mode 0666)", "chmod go-w")
+
+
+def test_a_module_of_another_user_is_not_loaded(folder):
+    needs_a_compiler()
+    needs_root()
+    refused_module(folder, lambda module, _: os.chown(module, 65534, 65534), "prune.kmeans.so", "belongs to user", "chown")
+
+
+def test_a_link_to_a_module_that_others_may_write_is_not_loaded(folder):
+    needs_a_compiler()
+    target = folder / "target.so"
+
+    def link(module, _):
+        module.rename(target)
+        target.chmod(0o666)
+        module.symlink_to(target)
+
+    refused_module(folder, link, "prune.kmeans.so", f"{target} may be written by everybody", f"chmod go-w '{target}'")
+
+
+def test_a_module_that_is_a_pipe_is_not_waited_for(folder):
+    needs_a_compiler()
+
+    def pipe(module, _):
+        module.unlink()
+        os.mkfifo(module, 0o600)
+
+    refused_module(folder, pipe, "prune.kmeans.so", "is a pipe, not a regular file")
+
+
+def test_a_manifest_that_others_may_write_or_that_is_a_pipe_is_not_read(folder):
+    needs_a_compiler()
+
+    def loose(module, _):
+        manifest = module.with_suffix(".json")
+        text = manifest.read_text()
+        manifest.unlink()
+        manifest.write_text(text)
+        manifest.chmod(0o646)
+
+    refused_module(folder / "one", loose, "its manifest", "prune.kmeans.json may be written by everybody", "chmod go-w")
+
+    def pipe(module, _):
+        manifest = module.with_suffix(".json")
+        manifest.unlink()
+        os.mkfifo(manifest, 0o600)
+
+    refused_module(folder / "other", pipe, "its manifest", "is a pipe")
+
+
+def test_a_folder_of_modules_that_others_may_write_is_not_searched(folder):
+    program, modules, environment = installation(folder)
+    for mode, words in ((0o777, "everybody"), (0o775, "its group")):
+        modules.chmod(mode)
+        said = plumb("doctor", program=program, environment=environment, code=WRONG_INPUT)
+        said.has(f"refused: {modules}", f"may be written by {words}", "chmod go-w")
+        refuses_the_cascade(folder, "source.sequence", program=program, environment=environment)
+    modules.chmod(0o755)
+    plumb("doctor", program=program, environment=environment)
+    if os.geteuid() == 0:
+        os.chown(modules, 65534, 65534)
+        plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has(f"refused: {modules}", "belongs to user")
+
+
+def test_modules_below_a_folder_that_others_may_write_are_not_loaded(folder):
+    loose, modules = folder / "loose", folder / "loose/inner/modules"
+    modules.mkdir(parents=True)
+    for file in ("test.nothing.so", "test.nothing.json"):
+        shutil.copy(BUILD / "tests/end_to_end/modules" / file, modules / file)
+    for path in (loose, loose / "inner", modules):
+        path.chmod(0o755)
+    assert "test.nothing" in plumb("--plugin-path", modules, "list").out
+    for mode, words in ((0o777, "everybody"), (0o775, "its group")):
+        loose.chmod(mode)
+        said = plumb("--plugin-path", modules, "list").has(f"refused: {modules}: {loose} may be written by {words}", "chmod go-w")
+        assert "test.nothing" not in said.out
+        plumb("doctor", environment={"PLUMB_PLUGIN_PATH": str(modules)}, code=WRONG_INPUT).has(f"{loose} may be written by {words}")
+    loose.chmod(0o1777)  # as /tmp
+    assert "test.nothing" in plumb("--plugin-path", modules, "list").out
+
+
+def test_a_program_built_under_umask_002_takes_its_own_modules(folder):
+    """A checkout in a folder of the user's own group: whoever may write there has the program itself."""
+    program, modules, environment = installation(folder)
+    for path in (folder, folder / "lib", folder / "bin"):
+        path.chmod(0o775)
+    modules.chmod(0o755)
+    plumb("doctor", program=program, environment=environment)
+    (folder / "lib").chmod(0o777)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has(f"{folder / 'lib'} may be written by everybody")
 
 
 def test_the_installed_command_finds_its_modules_beside_it(folder):
