@@ -35,13 +35,9 @@ void set(ExecutorProfile& profile, const std::string& name, const ParameterValue
   if (name == "poll") profile.poll = std::get<double>(value);
 }
 
-/// Refuses what is plainly none, without a word of what is in it.
-std::string profile_text(const std::filesystem::path& file, const std::vector<std::string>& known) try {
+std::string profile_text(const std::filesystem::path& file) try {
   constexpr std::uint64_t most = 1 << 20;
-  std::string text(io::FileBytes(file, most, "executor profile").view());
-  if (!pipeline::has_key(text, known))
-    throw Error(file.string() + ": is no executor profile: no line of it begins with one of its keys, which are " + pipeline::joined(known));
-  return text;
+  return std::string(io::FileBytes(file, most, "executor profile").view());
 } catch (const Error& e) {
   throw Error(std::string("--executor-profile ") + e.what());
 }
@@ -68,9 +64,12 @@ ExecutorProfile read_profile(const std::filesystem::path& file) {
   ExecutorProfile profile;
   std::vector<std::string> known;
   for (const ParameterDescription& one : profile_keys()) known.push_back(one.name);
-  const std::string text = profile_text(file, known);
+  const std::string text = profile_text(file);
   pipeline::Diagnostics diagnostics;
   const auto tree = pipeline::parse_yaml(text, file.string(), diagnostics);
+  if ((!tree || !tree->is_map()) && !pipeline::has_key(text, known))  // nothing of it is shown
+    throw Error("--executor-profile " + file.string() + ": is no executor profile: no line of it begins with one of its keys, which are " +
+                pipeline::joined(known));
   diagnostics.raise();
   if (tree && !tree->is_map()) diagnostics.add(tree->origin, "an executor profile is a map of keys and values.");
   if (tree)
