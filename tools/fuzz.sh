@@ -30,15 +30,16 @@ repeats() { ! "$build/bin/fuzz_$1" "${bounds[@]}" "$2" >>"$build/logs/$1.txt" 2>
 
 # fuzz READER: until its time is over or something is found.
 fuzz() {
-  local reader="$1" executions=0 found="" count left end=$((SECONDS + minutes * 60)) known="$root/tests/fuzz/findings/$1" dictionary="$root/tests/fuzz/dictionaries/$1"
+  local reader="$1" executions=0 found="" count left end=$((SECONDS + minutes * 60))
+  local known="$root/tests/fuzz/findings/$1" dictionary="$root/tests/fuzz/dictionaries/$1"
   local corpus="$build/corpus/$reader" findings="$build/findings/$reader" options=()
   mkdir -p "$corpus" "$findings"
   rm -f "$findings"/*
   : >"$build/logs/$reader.txt"
   if [ -f "$dictionary" ]; then options+=("-dict=$dictionary"); fi
   while left=$((end - SECONDS)) && [ -z "$found" ] && [ $left -gt 0 ]; do
-    "$build/bin/fuzz_$reader" "${bounds[@]}" "${options[@]}" -max_total_time=$left -print_final_stats=1 -artifact_prefix="$findings/" \
-      "$corpus" "$root/tests/fuzz/seeds/$reader" $([ -d "$known" ] && echo "$known") >"$build/logs/$reader.last" 2>&1 || true
+    "$build/bin/fuzz_$reader" "${bounds[@]}" "${options[@]}" -max_total_time=$left -print_final_stats=1 \
+      -artifact_prefix="$findings/" "$corpus" "$root/tests/fuzz/seeds/$reader" $([ -d "$known" ] && echo "$known") >"$build/logs/$reader.last" 2>&1 || true
     count="$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/logs/$reader.last")"
     [ -n "$count" ] || found=" its own end"
     executions=$((executions + ${count:-0}))
@@ -61,4 +62,5 @@ done
 wait
 told=()
 for reader in "${readers[@]}"; do told+=("$build/logs/$reader.told"); done
-cat "${told[@]}" | awk '{sum += $2; found += /FOUND/} END {printf "%d executions of %d readers, %d with findings\n", sum, NR, found; exit found > 0}'
+cat "${told[@]}" | awk '{sum += $2; found += /FOUND/} 
+  END {printf "%d executions of %d readers, %d with findings\n", sum, NR, found; exit found > 0}'

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds with ThreadSanitizer and runs the tests of engine and store and two whole runs, in space and in the plane. Exit 1 when it reports anything.
 #   bash tools/tsan.sh
-# Worker processes are left out: they bound their memory, into which the sanitizer's own does not fit. What is reported stands in BUILD/tsan/report.PID; what is let pass, and why, in tools/tsan.supp.
+# Worker processes are left out: they bound their memory, into which the sanitizer's own does not fit. What is reported stands in
+# BUILD/tsan/report.PID; what is let pass, and why, in tools/tsan.supp.
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 build="$build/tsan"
@@ -27,8 +28,9 @@ told test_engine "$build/bin/test_engine" --gtest_filter=-Memory.SeesWhatAStepHe
 told test_store "$build/bin/test_store"
 told simulate_space "$plumb" simulate out_and_back --frames 24 --length 60m --lines 16 --columns 256 --drift 1 -o "$scratch/space"
 told simulate_plane "$plumb" simulate rooms --length 12m --speed 0.5m/s --rate 2Hz --columns 181 -o "$scratch/plane"
-told run_in_space "$plumb" run "$root/pipelines/plumb.yaml" --set input="$scratch/space" --threads 4 --store "$scratch/store" -o "$scratch/straight"
-told run_in_plane "$plumb" run "$root/pipelines/zhang2023.yaml" --set input="$scratch/plane/log.clf" --threads 4 --store "$scratch/store" -o "$scratch/map"
+options=(--threads 4 --store "$scratch/store")
+told run_in_space "$plumb" run "$root/pipelines/plumb.yaml" --set input="$scratch/space" "${options[@]}" -o "$scratch/straight"
+told run_in_plane "$plumb" run "$root/pipelines/zhang2023.yaml" --set input="$scratch/plane/log.clf" "${options[@]}" -o "$scratch/map"
 
 reports=$(cat "$build"/report.* 2>/dev/null | grep -c '^WARNING: ThreadSanitizer' || true)
 echo "$reports reports of ThreadSanitizer"

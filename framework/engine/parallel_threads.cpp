@@ -1,5 +1,5 @@
-/// The seam to the thread pool in a build for ThreadSanitizer, which sees nothing of what oneTBB's library does and takes its hand-overs for races: the same
-/// functions with threads of the standard library, begun and joined by each loop.
+/// The seam to the thread pool in a build for ThreadSanitizer, which sees nothing of what oneTBB's library does and takes its hand-overs for
+/// races: the same functions with threads of the standard library, begun and joined by each loop.
 #include <algorithm>
 #include <atomic>
 #include <exception>

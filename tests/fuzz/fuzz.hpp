@@ -3,8 +3,8 @@
 ///
 ///     PLUMB_FUZZ_READER(tum) { read_tum(file_of(bytes)); }
 ///
-/// Error is the reader's right; all else that it ends in is a finding: another exception, a crash, a sanitizer's report, a promise that does not hold, more
-/// than a second or 512 MiB.
+/// Error is the reader's right; all else that it ends in is a finding: another exception, a crash, a sanitizer's report, a promise that does
+/// not hold, more than a second or 512 MiB.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-/// fuzz_replay READER SEEDS FINDINGS: gives a reader every file of the two folders, without clang and without sanitizers. The name of the input is told before
-/// it is read, so that the last one told is the one that ended the process. What an input may hold in memory is bounded as when it is fuzzed.
+/// fuzz_replay READER SEEDS FINDINGS: gives a reader every file of the two folders, without clang and without sanitizers. The name of the input
+/// is told before it is read, so that the last one told is the one that ended the process. Memory is bounded as when it is fuzzed.
 #include <sys/resource.h>
 
 #include <algorithm>
