@@ -189,7 +189,7 @@ def test_a_file_name_that_is_none(folder):
     for name in ("../escape.tum", "run.lock.yaml", "a/b.tum"):
         (folder / "named.yaml").write_text(POSES + f"  again:    {{use: write.trajectory, from: sequence.trajectory, with: {{name: {name}}}}}\n")
         said = plumb("run", folder / "named.yaml", "--set", f"input={sequence('street')}", "-o", folder / "out", code=WRONG_INPUT)
-        said.has("named.yaml:", f"'{name}'", "choose another")
+        said.has("named.yaml:", f'"{name}"', "choose another")
         nothing_left(folder / "out")
 
 
