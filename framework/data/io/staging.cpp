@@ -98,7 +98,7 @@ bool Staging::make_marker(const std::string& name) {
   marker_ = Handle(uninterrupted([&] { return openat(parent_.number(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); }));
   if (!marker_) return is_unknown() && make_marker_by_name(name);
   const bool locked = lock(marker_.number(), LOCK_EX);
-  if (!write_all(marker_.number(), head_of(token_, place_, locked))) return false;
+  if (!write_all(marker_.number(), head_of(token_, place_, locked)) || !sync_handle(marker_.number())) return false;
   const std::string itself = "/proc/self/fd/" + std::to_string(marker_.number());
   named_ = uninterrupted([&] { return linkat(AT_FDCWD, itself.c_str(), parent_.number(), name.c_str(), AT_SYMLINK_FOLLOW); }) == 0;
   return named_ || (is_unknown() && make_marker_by_name(name));
@@ -122,7 +122,8 @@ bool Staging::make() {
   return journal_.made.inode != 0 && note("made " + std::to_string(journal_.made.inode) + "\n");
 }
 
-bool Staging::note(const std::string& lines) { return write_all(marker_.number(), lines); }
+/// On the disk before what it is of is made, so that a power cut leaves nothing that is not listed.
+bool Staging::note(const std::string& lines) { return write_all(marker_.number(), lines) && sync_handle(marker_.number()); }
 
 bool Staging::add_folder(const std::string& name) {
   journal_.made.folders.push_back(name);
@@ -148,7 +149,7 @@ bool Staging::sync() {
 
 bool Staging::note_old(Listing old) {
   journal_.old = std::move(old);
-  return note(journal_.lines_of_old()) && sync_handle(marker_.number());
+  return note(journal_.lines_of_old());
 }
 
 int Staging::remove() {
