@@ -149,11 +149,9 @@ void run(const Arguments& arguments) {
   const Made made = made_by(arguments, progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  std::cout << arguments.output.string() << ": " << made.line << " (" << io::fixed(seconds, 1) << " s)
-";
+  std::cout << arguments.output.string() << ": " << made.line << " (" << io::fixed(seconds, 1) << " s)\n";
   if (made.unsettled.empty()) return;
-  std::cerr << "plumb: " << made.unsettled << "
-";
+  std::cerr << "plumb: " << made.unsettled << "\n";
   throw CLI::RuntimeError(exit_unsettled);
 }
 
