@@ -1,7 +1,7 @@
+#include "../finite.hpp"
 #include "../fuzz.hpp"
 #include "carmen_log.hpp"
 #include "decompress.hpp"
-#include "plumb/data/fault.hpp"
 #include "scan_cloud.hpp"
 
 using namespace plumb;

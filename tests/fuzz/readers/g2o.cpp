@@ -1,3 +1,4 @@
+#include "../finite.hpp"
 #include "../fuzz.hpp"
 #include "g2o_file.hpp"
 #include "plumb/data/fault.hpp"

@@ -1,6 +1,6 @@
+#include "../finite.hpp"
 #include "../fuzz.hpp"
 #include "calibration.hpp"
-#include "plumb/data/fault.hpp"
 
 using namespace plumb;
 

@@ -1,7 +1,7 @@
 #include "relations.hpp"
 
+#include "../finite.hpp"
 #include "../fuzz.hpp"
-#include "plumb/data/fault.hpp"
 
 using namespace plumb;
 

@@ -1,5 +1,5 @@
+#include "../finite.hpp"
 #include "../fuzz.hpp"
-#include "plumb/data/fault.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
 
 using namespace plumb;
