@@ -14,6 +14,13 @@ namespace {
 constexpr std::size_t longest_chain = 16;
 constexpr std::uint64_t largest_file = 1 << 20;
 
+/// A path with its links followed; as it is written where they lead round in a circle.
+fs::path followed(const fs::path& path) {
+  std::error_code error;
+  fs::path real = fs::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : real;
+}
+
 std::optional<std::string> text_of(const fs::path& file, const fs::path& pipeline,
                                    const Origin& asked, Diagnostics& diagnostics) {
   std::error_code error;
@@ -43,7 +50,7 @@ std::optional<std::string> text_of(const fs::path& file, const fs::path& pipelin
 /// Appends `file` after what it extends; a preset is laid over `pipeline`. False when something cannot be read.
 bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
             std::vector<fs::path>& open, Chain& chain, Diagnostics& diagnostics) {
-  const fs::path canonical = fs::weakly_canonical(file);
+  const fs::path canonical = followed(file);
   if (std::find(open.begin(), open.end(), canonical) != open.end() ||
       open.size() >= longest_chain) {
     const bool loop = open.size() < longest_chain;
@@ -79,8 +86,8 @@ bool applied(const std::vector<fs::path>& done, const fs::path& file) {
 
 /// `file` as a path that is written in the file `from`.
 std::string relative_to(const fs::path& from, const fs::path& file) {
-  return fs::weakly_canonical(file)
-      .lexically_relative(fs::weakly_canonical(from).parent_path())
+  return followed(file)
+      .lexically_relative(followed(from).parent_path())
       .string();
 }
 
@@ -102,7 +109,7 @@ const Node* also_for(const Chain::Link& link, const std::vector<fs::path>& done)
   const Node* also = link.tree.at("also");
   if (!also || !also->is_map()) return nullptr;
   for (const Entry& entry : also->entries)
-    if (applied(done, fs::weakly_canonical(link.canonical.parent_path() / entry.key))) return &entry.value;
+    if (applied(done, followed(link.canonical.parent_path() / entry.key))) return &entry.value;
   return nullptr;
 }
 

@@ -13,12 +13,6 @@ namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path this_library() {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&abi_tag), &info) && info.dli_fname) return fs::weakly_canonical(info.dli_fname);
-  return {};
-}
-
 bool lies_in(const fs::path& file, const fs::path& folder) {
   return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
@@ -37,6 +31,12 @@ std::string fault_above(const fs::path& real, const fs::path& given) {
 }
 
 }  // namespace
+
+fs::path this_library() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&abi_tag), &info) && info.dli_fname) return fs::weakly_canonical(info.dli_fname);
+  return {};
+}
 
 fs::path folder_of_this_library() { return this_library().parent_path(); }
 

@@ -7,7 +7,8 @@
 
 namespace plumb {
 
-/// The folder of libplumb itself.
+/// libplumb itself, and its folder.
+std::filesystem::path this_library();
 std::filesystem::path folder_of_this_library();
 
 /// "" for a folder in which modules may be looked for, or what is wrong and the cure. The folder itself and all above it are judged, links resolved. Of

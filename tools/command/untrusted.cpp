@@ -12,6 +12,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/staged_folder.hpp"
+#include "plumb/plugin/trusted_file.hpp"
 
 namespace plumb::command {
 namespace fs = std::filesystem;
@@ -61,7 +62,8 @@ void Untrusted::before_reading(PipelineOptions& pipeline) const {
   bound_memory(memory_);
   bound_time(time_);
   pipeline.overlay.untrusted = true;
-  std::vector<fs::path> folders{folder_of(pipeline.file)};
+  std::vector<fs::path> folders = Registry::shipped_folders();
+  folders.push_back(folder_of(pipeline.file));
   for (const fs::path& preset : pipeline.overlay.presets) folders.push_back(folder_of(preset));
   io::set_fence(folders);
 }
@@ -71,6 +73,7 @@ Registry Untrusted::steps() const { return on_ ? Registry::scan(Registry::shippe
 void Untrusted::before_running(const Plan& plan, const Registry& steps, std::vector<fs::path> own) const {
   if (!on_) return;
   for (const fs::path& given : given_paths(plan)) own.push_back(given);
+  own.push_back(this_library());  // the record of the run holds its hash
   own.insert(own.end(), steps.folders().begin(), steps.folders().end());
   io::set_fence(own);
 }

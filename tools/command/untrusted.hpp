@@ -14,7 +14,7 @@ class Untrusted {
   void add_to(CLI::App& command);
   explicit operator bool() const { return on_; }
 
-  /// Before the pipeline is read: bounds, and a fence round the folders of the pipeline and presets that were named. Nothing without the flag.
+  /// Before the pipeline is read: bounds, and a fence round the folders of the pipeline and presets that were named, and of the modules. Nothing without the flag.
   /// Throws Error: bounds that are none, --plugin-path.
   void before_reading(PipelineOptions& pipeline) const;
   /// The steps of this installation; also of --plugin-path and PLUMB_PLUGIN_PATH without the flag.

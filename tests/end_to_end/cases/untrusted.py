@@ -101,6 +101,8 @@ def test_links(folder):
     place = Place(folder)
     (place.stranger / "data").symlink_to(place.secrets)
     place.run(place.file(reads(input="data")), given=False).has("lies outside")
+    (place.stranger / "round").symlink_to("round")
+    place.run(place.file("plumb: 1\nextends: round\n")).has("round")
     (place.stranger / "base.yaml").symlink_to(place.secrets / "other.yaml")
     place.run(place.file("plumb: 1\nextends: base.yaml\n")).has("lies outside")
     odometry = place.input / "odometry.tum"
