@@ -50,6 +50,22 @@ def by_kind(counts):
     return kinds
 
 
+def differences(scenario, work, layer):
+    """By kind of call: a sentence on what the two runs of a scenario do not agree in."""
+    trial = Trial(scenario, work, layer)
+    world, trace = work / "world", work / "trace"
+    renewed(world, trial.template)
+    said = run(scenario.command(work, world), program=["strace", "-f", "-y", "-o", trace, PLUMB])
+    assert said.code == 0, said
+    seen, counted = of_strace(trace, world), of_layer(trial.calls)
+    found = {name: f"{scenario.name}: {name}, which the layer does not know" for name in seen if name not in COUNTED | LOOKED}
+    for kind in sorted(by_kind(seen) | by_kind(counted)):
+        if by_kind(seen)[kind] != by_kind(counted)[kind]:
+            found[kind] = f"{scenario.name}: {by_kind(seen)[kind]} calls of {kind} by strace, {by_kind(counted)[kind]} by the layer"
+    print(f"{scenario.name}: {sum(by_kind(counted).values())} calls, looked at {len(trial.calls) - sum(by_kind(counted).values())} times")
+    return found
+
+
 def main():
     if not shutil.which("strace"):
         print("skipped: strace is not there")
@@ -59,17 +75,12 @@ def main():
     make_input(work)
     escaped = []
     for scenario in scenarios.ALL:
-        trial = Trial(scenario, work, layer)
-        world, trace = work / "world", work / "trace"
-        renewed(world, trial.template)
-        said = run(scenario.command(work, world), program=["strace", "-f", "-y", "-o", trace, PLUMB])
-        assert said.code == 0, said
-        seen, counted = of_strace(trace, world), of_layer(trial.calls)
-        escaped += [f"{scenario.name}: {name}, which the layer does not know" for name in seen if name not in COUNTED | LOOKED]
-        for kind in sorted(by_kind(seen) | by_kind(counted)):
-            if by_kind(seen)[kind] != by_kind(counted)[kind]:
-                escaped.append(f"{scenario.name}: {by_kind(seen)[kind]} calls of {kind} by strace, {by_kind(counted)[kind]} by the layer")
-        print(f"{scenario.name}: {sum(by_kind(counted).values())} calls, looked at {len(trial.calls) - sum(by_kind(counted).values())} times")
+        found = differences(scenario, work, layer)
+        for _ in range(3):  # threads may make a call more or less in one run than in another; what escapes does so each time
+            if found:
+                again = differences(scenario, work, layer)
+                found = {kind: sentence for kind, sentence in again.items() if kind in found}
+        escaped += found.values()
     print("\n".join(escaped) or "no call escapes")
     shutil.rmtree(work, ignore_errors=True)
     return 1 if escaped else 0
