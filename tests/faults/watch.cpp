@@ -21,14 +21,18 @@ namespace faults {
 namespace {
 
 // The layer's own calls go past itself.
-int open_past(const char* path, int flags) { return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0600)); }
+int open_past(const char* path, int flags) {
+  return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0600));
+}
 
 struct Error {
   const char* name;
   int number;
 };
-constexpr Error errors[] = {{"EACCES", EACCES}, {"EDQUOT", EDQUOT}, {"EINTR", EINTR},   {"EIO", EIO},       {"EMFILE", EMFILE},
-                            {"ENOENT", ENOENT}, {"ENOLCK", ENOLCK}, {"ENOMEM", ENOMEM}, {"ENOSPC", ENOSPC}, {"EPERM", EPERM}};
+constexpr Error errors[] = {{"EACCES", EACCES}, {"EDQUOT", EDQUOT}, {"EINTR", EINTR},
+                            {"EIO", EIO},       {"EMFILE", EMFILE}, {"ENOENT", ENOENT},
+                            {"ENOLCK", ENOLCK}, {"ENOMEM", ENOMEM}, {"ENOSPC", ENOSPC},
+                            {"EPERM", EPERM}};
 
 [[noreturn]] void give_up(const char* why) {
   static_cast<void>(!syscall(SYS_write, 2, why, std::strlen(why)));
@@ -49,7 +53,8 @@ struct Settings {
     if (const char* list = std::getenv("FAULTS_FOLDERS")) split(list);
     if (const char* file = std::getenv("FAULTS_COUNT")) share(file);
     if (const char* file = std::getenv("FAULTS_LOG"))
-      if (log = open_past(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC); log < 0) give_up("faults: FAULTS_LOG cannot be written\n");
+      if (log = open_past(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC); log < 0)
+        give_up("faults: FAULTS_LOG cannot be written\n");
     if (const char* number = std::getenv("FAULTS_AT")) at = std::strtoull(number, nullptr, 10);
     if (const char* how = std::getenv("FAULTS_HOW")) read_how(how);
     Dl_info here{};
@@ -68,7 +73,10 @@ struct Settings {
 
   void share(const char* file) {
     const int fd = open_past(file, O_RDWR | O_CLOEXEC);
-    void* place = fd < 0 ? MAP_FAILED : reinterpret_cast<void*>(syscall(SYS_mmap, nullptr, sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
+    void* place = fd < 0
+                      ? MAP_FAILED
+                      : reinterpret_cast<void*>(syscall(SYS_mmap, nullptr, sizeof *count,
+                                                        PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
     if (place == MAP_FAILED) give_up("faults: FAULTS_COUNT cannot be mapped\n");
     syscall(SYS_close, fd);
     count = static_cast<std::atomic<std::uint64_t>*>(place);
@@ -109,11 +117,13 @@ std::string callers() {
   std::string text;
   for (int k = 0; k < n; ++k) {
     Dl_info at{};
-    if (dladdr(frames[static_cast<std::size_t>(k)], &at) == 0 || settings().module == at.dli_fname) continue;
+    if (dladdr(frames[static_cast<std::size_t>(k)], &at) == 0 || settings().module == at.dli_fname)
+      continue;
     char part[300];
     const char* name = std::strrchr(at.dli_fname, '/');
     std::snprintf(part, sizeof part, "%s+%zx ", name ? name + 1 : at.dli_fname,
-                  static_cast<std::size_t>(static_cast<char*>(frames[static_cast<std::size_t>(k)]) - static_cast<char*>(at.dli_fbase)));
+                  static_cast<std::size_t>(static_cast<char*>(frames[static_cast<std::size_t>(k)]) -
+                                           static_cast<char*>(at.dli_fbase)));
     text += part;
   }
   return text;
@@ -133,19 +143,25 @@ std::string absolute(int at, const char* path) {
   if (*path == '/') return path;
   if (at != AT_FDCWD) return path_of(at) + (*path ? "/" : "") + path;
   char here[4096];
-  return (syscall(SYS_getcwd, here, sizeof here) > 0 ? std::string(here) + "/" : std::string()) + path;
+  return (syscall(SYS_getcwd, here, sizeof here) > 0 ? std::string(here) + "/" : std::string()) +
+         path;
 }
 
 bool is_watched(const std::string& path) {
   for (const std::string& folder : settings().folders)
-    if (path.starts_with(folder) && (path.size() == folder.size() || path[folder.size()] == '/')) return true;
+    if (path.starts_with(folder) && (path.size() == folder.size() || path[folder.size()] == '/'))
+      return true;
   return false;
 }
 
-bool is_watched(int fd) { return fd >= 0 && fd < static_cast<int>(watched_fds.size()) && watched_fds[static_cast<std::size_t>(fd)]; }
+bool is_watched(int fd) {
+  return fd >= 0 && fd < static_cast<int>(watched_fds.size()) &&
+         watched_fds[static_cast<std::size_t>(fd)];
+}
 
 void watch(int fd, bool watched) {
-  if (fd >= static_cast<int>(watched_fds.size())) give_up("faults: more files are open at once than the layer can follow\n");
+  if (fd >= static_cast<int>(watched_fds.size()))
+    give_up("faults: more files are open at once than the layer can follow\n");
   if (fd >= 0) watched_fds[static_cast<std::size_t>(fd)] = watched;
 }
 
@@ -179,7 +195,8 @@ void log(const Call& call, const Fate& fate, long result, int error) {
   append(line, call.flags);
   append(line, call.path);
   append(line, call.second);
-  append(line, hexadecimal(call.bytes.substr(0, result < 0 ? 0 : static_cast<std::size_t>(result))));
+  append(line,
+         hexadecimal(call.bytes.substr(0, result < 0 ? 0 : static_cast<std::size_t>(result))));
   line += callers() + "\n";
   static_cast<void>(!syscall(SYS_write, now.log, line.data(), line.size()));
 }

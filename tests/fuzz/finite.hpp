@@ -10,12 +10,16 @@
 
 namespace plumb {
 
-inline bool is_finite(const Pose& pose) { return pose.translation.allFinite() && pose.rotation.coeffs().allFinite(); }
+inline bool is_finite(const Pose& pose) {
+  return pose.translation.allFinite() && pose.rotation.coeffs().allFinite();
+}
 inline bool is_finite(const std::vector<Pose>& poses) {
   return std::ranges::all_of(poses, [](const Pose& pose) { return is_finite(pose); });
 }
 inline bool is_finite(const Cloud& cloud) {
-  const auto all = [](const std::vector<float>& values) { return std::ranges::all_of(values, [](float value) { return std::isfinite(value); }); };
+  const auto all = [](const std::vector<float>& values) {
+    return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+  };
   return all(cloud.x) && all(cloud.y) && all(cloud.z);
 }
 

@@ -48,7 +48,10 @@ const fs::path& folder() {
 fs::path file_of(std::string_view bytes, const std::string& name) {
   const fs::path file = folder() / name;
   const int to = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  require(to >= 0 && ::write(to, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) && ::close(to) == 0, "inputs can be written");
+  require(to >= 0 &&
+              ::write(to, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) &&
+              ::close(to) == 0,
+          "inputs can be written");
   return file;
 }
 

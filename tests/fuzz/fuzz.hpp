@@ -3,8 +3,8 @@
 ///
 ///     PLUMB_FUZZ_READER(tum) { read_tum(file_of(bytes)); }
 ///
-/// Error is the reader's right; all else that it ends in is a finding: another exception, a crash, a sanitizer's report, a promise that does
-/// not hold, more than a second or 512 MiB.
+/// Error is the reader's right; all else that it ends in is a finding: another exception, a crash,
+/// a sanitizer's report, a promise that does not hold, more than a second or 512 MiB.
 
 #include <filesystem>
 #include <string>
@@ -40,7 +40,8 @@ void require(bool holds, const char* promise);
 
 }  // namespace plumb::fuzz
 
-#define PLUMB_FUZZ_READER(reader)                                                                                                        \
-  static void fuzz_##reader(std::string_view bytes);                                                                                     \
-  [[maybe_unused]] static const bool reader##_is_known = (plumb::fuzz::readers().push_back({#reader, fuzz_##reader}), true);             \
+#define PLUMB_FUZZ_READER(reader)                                         \
+  static void fuzz_##reader(std::string_view bytes);                      \
+  [[maybe_unused]] static const bool reader##_is_known =                  \
+      (plumb::fuzz::readers().push_back({#reader, fuzz_##reader}), true); \
   static void fuzz_##reader(std::string_view bytes)

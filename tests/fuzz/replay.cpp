@@ -1,5 +1,6 @@
-/// fuzz_replay READER SEEDS FINDINGS: gives a reader every file of the two folders, without clang and without sanitizers. The name of the input
-/// is told before it is read, so that the last one told is the one that ended the process. Memory is bounded as when it is fuzzed.
+/// fuzz_replay READER SEEDS FINDINGS: gives a reader every file of the two folders, without clang
+/// and without sanitizers. The name of the input is told before it is read, so that the last one
+/// told is the one that ended the process. Memory is bounded as when it is fuzzed.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -57,7 +58,8 @@ int main(int count, char** words) {
   using namespace plumb::fuzz;
   bound_memory();
   for (const Reader& reader : readers())
-    if (count == 4 && reader.name == std::string_view(words[1])) return replay(reader, words[2], words[3]);
+    if (count == 4 && reader.name == std::string_view(words[1]))
+      return replay(reader, words[2], words[3]);
   std::fprintf(stderr, "usage: fuzz_replay READER SEEDS FINDINGS; the readers are:\n");
   for (const Reader& reader : readers()) std::fprintf(stderr, "  %s\n", reader.name);
   return 1;

@@ -1,10 +1,12 @@
 /// A CARMEN log as MRPT's programs read it: one pair of action and sensory frame a scan.
 ///
-///   carmen_to_rawlog LOG OUT.rawlog SCANS.txt [FIRST]     LOG: plain text, or - for the standard input
+///   carmen_to_rawlog LOG OUT.rawlog SCANS.txt [FIRST]     LOG: plain text, or - for the standard
+///   input
 ///
-/// SCANS.txt has a line a scan, `stamp x y theta`: the log's own stamp (third word from the end) and the laser's pose by the
-/// wheels. MRPT's time must not step back, as the stamps of some logs do: in the rawlog such a scan comes a millisecond
-/// after the one before; results are brought back to the log's stamps by their order. FIRST: only the first so many scans.
+/// SCANS.txt has a line a scan, `stamp x y theta`: the log's own stamp (third word from the end)
+/// and the laser's pose by the wheels. MRPT's time must not step back, as the stamps of some logs
+/// do: in the rawlog such a scan comes a millisecond after the one before; results are brought back
+/// to the log's stamps by their order. FIRST: only the first so many scans.
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/io/CFileGZOutputStream.h>
@@ -18,8 +20,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <limits>
@@ -39,26 +41,40 @@ struct Scan {
   mrpt::poses::CPose2D pose;
 };
 
-double number(const std::vector<std::string>& words, std::size_t k) { return std::stod(words.at(k)); }
+double number(const std::vector<std::string>& words, std::size_t k) {
+  return std::stod(words.at(k));
+}
 
-/// `FLASER n [n ranges] laser_pose robot_pose stamp host logger_stamp`, beams as CARMEN has them: from 90 degrees on the
-/// right, a step of 1 degree with 180 or 181 of them, of half a degree with 360 or 361.
+/// `FLASER n [n ranges] laser_pose robot_pose stamp host logger_stamp`, beams as CARMEN has them:
+/// from 90 degrees on the right, a step of 1 degree with 180 or 181 of them, of half a degree with
+/// 360 or 361.
 Scan flaser(const std::vector<std::string>& words) {
   const auto n = static_cast<std::size_t>(std::stoul(words.at(1)));
-  if (n < 2 || words.size() != n + 11) throw std::runtime_error("FLASER with a wrong number of words");
-  Scan scan{words[n + 8], -pi / 2, pi / static_cast<double>(n % 2 == 0 ? n : n - 1), 0, {},
+  if (n < 2 || words.size() != n + 11)
+    throw std::runtime_error("FLASER with a wrong number of words");
+  Scan scan{words[n + 8],
+            -pi / 2,
+            pi / static_cast<double>(n % 2 == 0 ? n : n - 1),
+            0,
+            {},
             {number(words, n + 2), number(words, n + 3), number(words, n + 4)}};
   for (std::size_t k = 0; k < n; ++k) scan.ranges.push_back(number(words, 2 + k));
   return scan;
 }
 
-/// `ROBOTLASER1 type start fov step max accuracy mode n [ranges] m [remissions] laser_pose robot_pose ... stamp host stamp`.
+/// `ROBOTLASER1 type start fov step max accuracy mode n [ranges] m [remissions] laser_pose
+/// robot_pose ... stamp host stamp`.
 Scan robotlaser(const std::vector<std::string>& words) {
   const auto n = static_cast<std::size_t>(std::stoul(words.at(8)));
   const auto m = static_cast<std::size_t>(std::stoul(words.at(9 + n)));
   const std::size_t pose = 10 + n + m;
-  if (n < 2 || words.size() != pose + 14) throw std::runtime_error("ROBOTLASER1 with a wrong number of words");
-  Scan scan{words[pose + 11], number(words, 2), number(words, 4), number(words, 5), {},
+  if (n < 2 || words.size() != pose + 14)
+    throw std::runtime_error("ROBOTLASER1 with a wrong number of words");
+  Scan scan{words[pose + 11],
+            number(words, 2),
+            number(words, 4),
+            number(words, 5),
+            {},
             {number(words, pose), number(words, pose + 1), number(words, pose + 2)}};
   for (std::size_t k = 0; k < n; ++k) scan.ranges.push_back(number(words, 9 + k));
   return scan;
@@ -82,8 +98,8 @@ std::vector<Scan> scans_of(std::istream& log, std::size_t first) {
   return scans;
 }
 
-/// Where the log does not say what a scanner reads when it sees nothing: just under the largest reading that at least one
-/// in 10,000 has; 80 m where there is none.
+/// Where the log does not say what a scanner reads when it sees nothing: just under the largest
+/// reading that at least one in 10,000 has; 80 m where there is none.
 double maximum_of(const std::vector<Scan>& scans) {
   std::vector<double> all;
   for (const Scan& scan : scans) all.insert(all.end(), scan.ranges.begin(), scan.ranges.end());
@@ -98,7 +114,8 @@ double maximum_of(const std::vector<Scan>& scans) {
   return 80;
 }
 
-mrpt::obs::CObservation2DRangeScan observation(const Scan& scan, double maximum, mrpt::system::TTimeStamp stamp) {
+mrpt::obs::CObservation2DRangeScan observation(const Scan& scan, double maximum,
+                                               mrpt::system::TTimeStamp stamp) {
   mrpt::obs::CObservation2DRangeScan made;
   const double view = scan.step * static_cast<double>(scan.ranges.size() - 1);
   made.aperture = static_cast<float>(view);
@@ -132,18 +149,20 @@ void write(const std::vector<Scan>& scans, const std::string& rawlog, const std:
     mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
     model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
     mrpt::obs::CActionRobotMovement2D movement;
-    movement.computeFromOdometry(k == 0 ? mrpt::poses::CPose2D() : scan.pose - scans[k - 1].pose, model);
+    movement.computeFromOdometry(k == 0 ? mrpt::poses::CPose2D() : scan.pose - scans[k - 1].pose,
+                                 model);
     movement.timestamp = stamp;
     mrpt::obs::CActionCollection actions;
     actions.insert(movement);
 
     mrpt::obs::CSensoryFrame frame;
-    frame.insert(mrpt::obs::CObservation2DRangeScan::Ptr(
-        new mrpt::obs::CObservation2DRangeScan(observation(scan, scan.maximum > 0 ? scan.maximum : unknown, stamp))));
+    frame.insert(mrpt::obs::CObservation2DRangeScan::Ptr(new mrpt::obs::CObservation2DRangeScan(
+        observation(scan, scan.maximum > 0 ? scan.maximum : unknown, stamp))));
     archive << actions << frame;
 
     char pose[128];
-    std::snprintf(pose, sizeof pose, " %.9f %.9f %.9f\n", scan.pose.x(), scan.pose.y(), scan.pose.phi());
+    std::snprintf(pose, sizeof pose, " %.9f %.9f %.9f\n", scan.pose.x(), scan.pose.y(),
+                  scan.pose.phi());
     lines << scan.stamp << pose;
   }
   if (!lines.flush()) throw std::runtime_error(list + " cannot be written");
@@ -154,7 +173,8 @@ void write(const std::vector<Scan>& scans, const std::string& rawlog, const std:
 int main(int argc, char** argv) {
   try {
     if (argc < 4) throw std::runtime_error("give LOG OUT.rawlog SCANS.txt [FIRST]");
-    const std::size_t first = argc > 4 ? std::stoul(argv[4]) : std::numeric_limits<std::size_t>::max();
+    const std::size_t first =
+        argc > 4 ? std::stoul(argv[4]) : std::numeric_limits<std::size_t>::max();
     std::ifstream file;
     if (std::string(argv[1]) != "-") {
       file.open(argv[1]);

@@ -32,12 +32,14 @@ std::string day_and_time(std::int64_t ms) {
 
 std::string results(std::size_t n) { return std::to_string(n) + (n == 1 ? " result" : " results"); }
 
-/// The store that is meant; none, which is said, when there is none yet: looking for one does not make it.
+/// The store that is meant; none, which is said, when there is none yet: looking for one does not
+/// make it.
 std::unique_ptr<Store> existing(const Options& options) {
   const auto folder = options.store.folder();
   if (folder.empty())
     throw Error(options.store.none() ? "--store none: there is nothing to look after; name a folder"
-                                     : "neither XDG_CACHE_HOME nor HOME names a folder; say by --store DIR which store is meant");
+                                     : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
+                                       "--store DIR which store is meant");
   if (std::filesystem::exists(folder)) return options.store.open(folder);
   std::cout << folder.string() << ": nothing is kept yet\n";
   return nullptr;
@@ -59,16 +61,21 @@ void show(const Options& options) {
   std::map<std::string, Sum> by_step;
   for (const IndexRow& row : store->index()->rows()) all.add(row), by_step[row.step].add(row);
   say_faults(*store);
-  std::cout << store->folder().string() << ": " << results(all.results) << ", " << text_of_bytes(all.bytes) << "\n";
+  std::cout << store->folder().string() << ": " << results(all.results) << ", "
+            << text_of_bytes(all.bytes) << "\n";
   if (all.results == 0) return;
   std::vector<std::pair<std::string, Sum>> lines(by_step.begin(), by_step.end());
-  std::ranges::stable_sort(lines, [](const auto& a, const auto& b) { return a.second.bytes > b.second.bytes; });
-  std::cout << "\n" << std::left << std::setw(28) << "step" << std::right << std::setw(9) << "results" << std::setw(11) << "size"
-            << std::setw(19) << "oldest" << std::setw(19) << "last used" << "\n";
+  std::ranges::stable_sort(
+      lines, [](const auto& a, const auto& b) { return a.second.bytes > b.second.bytes; });
+  std::cout << "\n"
+            << std::left << std::setw(28) << "step" << std::right << std::setw(9) << "results"
+            << std::setw(11) << "size" << std::setw(19) << "oldest" << std::setw(19) << "last used"
+            << "\n";
   lines.emplace_back("all", all);
   for (const auto& [step, sum] : lines)
-    std::cout << std::left << std::setw(28) << step << std::right << std::setw(9) << sum.results << std::setw(11) << text_of_bytes(sum.bytes)
-              << std::setw(19) << day_and_time(sum.made) << std::setw(19) << day_and_time(sum.used) << "\n";
+    std::cout << std::left << std::setw(28) << step << std::right << std::setw(9) << sum.results
+              << std::setw(11) << text_of_bytes(sum.bytes) << std::setw(19)
+              << day_and_time(sum.made) << std::setw(19) << day_and_time(sum.used) << "\n";
 }
 
 void verify_store(const Options& options) {
@@ -76,10 +83,14 @@ void verify_store(const Options& options) {
   if (!store) return;
   const Verified verified = verify(*store);
   say_faults(*store);
-  for (const std::string& damaged : verified.damaged) std::cout << "damaged and removed: " << damaged << "\n";
+  for (const std::string& damaged : verified.damaged)
+    std::cout << "damaged and removed: " << damaged << "\n";
   std::cout << results(verified.results) << ", " << text_of_bytes(verified.bytes) << ": ";
-  if (verified.damaged.empty()) std::cout << "all whole\n";
-  else std::cout << verified.damaged.size() << " damaged and removed; a run that needs them makes them again\n";
+  if (verified.damaged.empty())
+    std::cout << "all whole\n";
+  else
+    std::cout << verified.damaged.size()
+              << " damaged and removed; a run that needs them makes them again\n";
   if (!verified.good(*store)) throw CLI::RuntimeError(1);
 }
 
@@ -87,14 +98,18 @@ void prune_store(const Options& options) {
   PruneLimits limits;
   if (!options.older.empty()) limits.older = age_of_text("--older", options.older);
   if (!options.size.empty()) limits.bytes = bytes_of_text("--size", options.size);
-  if (!limits.older && !limits.bytes) throw Error("cache prune: removes nothing without a limit; give --older 30d, --size 10GiB or both");
+  if (!limits.older && !limits.bytes)
+    throw Error(
+        "cache prune: removes nothing without a limit; give --older 30d, --size 10GiB or both");
   const auto store = existing(options);
   if (!store) return;
   const Pruned pruned = prune(*store, limits);
   say_faults(*store);
-  std::cout << "freed " << text_of_bytes(pruned.bytes + pruned.unfinished_bytes) << ": " << results(pruned.results);
+  std::cout << "freed " << text_of_bytes(pruned.bytes + pruned.unfinished_bytes) << ": "
+            << results(pruned.results);
   if (pruned.unfinished) std::cout << " and " << pruned.unfinished << " that runs left unfinished";
-  std::cout << "; " << results(pruned.left) << ", " << text_of_bytes(pruned.left_bytes) << " are left\n";
+  std::cout << "; " << results(pruned.left) << ", " << text_of_bytes(pruned.left_bytes)
+            << " are left\n";
 }
 
 }  // namespace
@@ -105,15 +120,20 @@ void add_cache(CLI::App& app) {
   options->store.add_to(*command);
   command->require_subcommand(0, 1);
   command->footer(
-      "Without a sub-command: number and size of the results by step. All of it is safe while runs use the store; what is removed is made again.\n"
+      "Without a sub-command: number and size of the results by step. All of it is safe while runs "
+      "use the store; what is removed is made again.\n"
       "Example: plumb cache prune --older 30d --size 10GiB");
-  auto* check = command->add_subcommand("verify", "Checks every result and the index, and removes what is damaged");
+  auto* check = command->add_subcommand(
+      "verify", "Checks every result and the index, and removes what is damaged");
   check->footer("Exit 1 when anything was damaged.");
   auto* less = command->add_subcommand("prune", "Removes results, least recently used first");
-  less->add_option("--older", options->older, "Removes what was not used for this long: 12h, 30d, 8w");
-  less->add_option("--size", options->size, "Removes until no more than this is left: 500MB, 10GiB");
+  less->add_option("--older", options->older,
+                   "Removes what was not used for this long: 12h, 30d, 8w");
+  less->add_option("--size", options->size,
+                   "Removes until no more than this is left: 500MB, 10GiB");
   less->footer("Example: plumb cache prune --older 30d --size 10GiB");
-  for (auto* sub : {check, less}) sub->fallthrough();  // --store and --trust-store behind the sub-command are the command's own
+  for (auto* sub : {check, less})
+    sub->fallthrough();  // --store and --trust-store behind the sub-command are the command's own
   check->callback([options] { verify_store(*options); });
   less->callback([options] { prune_store(*options); });
   command->callback([command, options] {

@@ -4,8 +4,8 @@
 
 #include "pipeline_options.hpp"
 #include "plumb/engine/preflight.hpp"
-#include "plumb/pipeline/graph.hpp"
-#include "plumb/pipeline/table.hpp"
+#include "plumb/pipeline/print/graph.hpp"
+#include "plumb/pipeline/print/table.hpp"
 #include "untrusted.hpp"
 
 namespace plumb::command {
@@ -15,7 +15,9 @@ void add_check(CLI::App& app) {
   auto options = std::make_shared<PipelineOptions>();
   options->add_to(*command);
   options->overlay.needs_files = true;
-  command->footer("Prints every mistake with file:line:column, files that are not there too; or the passes of each loop. Exit 1 when there is a mistake.");
+  command->footer(
+      "Prints every mistake with file:line:column, files that are not there too; or the passes of "
+      "each loop. Exit 1 when there is a mistake.");
   auto untrusted = std::make_shared<Untrusted>();
   untrusted->add_to(*command);
   command->callback([options, untrusted] {
@@ -30,7 +32,8 @@ void add_check(CLI::App& app) {
 }
 
 void add_resolve(CLI::App& app) {
-  auto* command = app.add_subcommand("resolve", "Prints the pipeline after presets and settings, each value with its origin");
+  auto* command = app.add_subcommand(
+      "resolve", "Prints the pipeline after presets and settings, each value with its origin");
   auto options = std::make_shared<PipelineOptions>();
   options->add_to(*command);
   command->callback([options] {
@@ -40,11 +43,14 @@ void add_resolve(CLI::App& app) {
 }
 
 void add_graph(CLI::App& app) {
-  auto* command = app.add_subcommand("graph", "Prints the wires of a pipeline as a Mermaid or DOT graph");
+  auto* command =
+      app.add_subcommand("graph", "Prints the wires of a pipeline as a Mermaid or DOT graph");
   auto options = std::make_shared<PipelineOptions>();
   auto format = std::make_shared<std::string>("mermaid");
   options->add_to(*command);
-  command->add_option("--format", *format, "mermaid or dot")->check(CLI::IsMember({"mermaid", "dot"}))->capture_default_str();
+  command->add_option("--format", *format, "mermaid or dot")
+      ->check(CLI::IsMember({"mermaid", "dot"}))
+      ->capture_default_str();
   command->callback([options, format] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);

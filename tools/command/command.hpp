@@ -13,7 +13,8 @@ class App;
 namespace plumb::command {
 
 /// What the program exits with, beside 0; `plumb --help` says what they mean.
-inline constexpr int exit_refused = 1, exit_wrong_command_line = 2, exit_failed = 3, exit_unsettled = 4;
+inline constexpr int exit_refused = 1, exit_wrong_command_line = 2, exit_failed = 3,
+                     exit_unsettled = 4;
 
 void add_run(CLI::App& app);
 void add_check(CLI::App& app);

@@ -11,10 +11,10 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
 #include "plumb/data/io/trajectory_text.hpp"
-#include "plumb/engine/output_folder.hpp"
 #include "plumb/engine/preflight.hpp"
-#include "plumb/engine/quoted.hpp"
-#include "plumb/pipeline/overlay.hpp"
+#include "plumb/engine/record/output_folder.hpp"
+#include "plumb/engine/record/quoted.hpp"
+#include "plumb/pipeline/yaml/load.hpp"
 #include "plumb/report/comparison.hpp"
 #include "store_option.hpp"
 
@@ -46,7 +46,8 @@ struct Variant {
   bool alone = false;  ///< a pipeline of its own, which --set does not reach
 };
 
-/// A file that extends nothing is a pipeline of its own, any other is laid over the one that is compared. One that cannot be read is told later.
+/// A file that extends nothing is a pipeline of its own, any other is laid over the one that is
+/// compared. One that cannot be read is told later.
 bool stands_alone(const fs::path& file, const fs::path& pipeline) {
   pipeline::Diagnostics ignored;
   return pipeline::read_chain(file, pipeline, ignored).links.size() == 1;
@@ -63,8 +64,10 @@ std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
                   (name == pipeline.name ? ", the pipeline as it is" : "") +
                   "; give each variant a name of its own");
     const fs::path file = option.substr(equals + 1);
-    if (stands_alone(file, options.pipeline)) variants.push_back({name, file, {}, true});
-    else variants.push_back({name, options.pipeline, {file}, false});
+    if (stands_alone(file, options.pipeline))
+      variants.push_back({name, file, {}, true});
+    else
+      variants.push_back({name, options.pipeline, {file}, false});
   }
   return variants;
 }
@@ -86,12 +89,15 @@ std::vector<std::string> names_of(const std::vector<fs::path>& inputs) {
 
 /// Whether the command line sets a parameter itself.
 bool is_set(const Options& options, const std::string& name) {
-  return std::any_of(options.sets.begin(), options.sets.end(), [&](const std::string& set) { return set.starts_with(name + "="); });
+  return std::any_of(options.sets.begin(), options.sets.end(),
+                     [&](const std::string& set) { return set.starts_with(name + "="); });
 }
 
-/// What an input sets: itself, or the log in it; and what lies beside that the pipeline asks for: the truth, the plan, and as `estimate` what another
-/// program of the variant's name made of it, NAME.tum.
-std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline, const std::string& variant) {
+/// What an input sets: itself, or the log in it; and what lies beside that the pipeline asks for:
+/// the truth, the plan, and as `estimate` what another program of the variant's name made of it,
+/// NAME.tum.
+std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline,
+                                 const std::string& variant) {
   const auto declares = [&](const char* name) {
     return std::any_of(pipeline.settings.begin(), pipeline.settings.end(),
                        [&](const auto& s) { return s.name == name; });
@@ -106,7 +112,9 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline, co
   if (!fs::is_directory(input)) return {"input=" + input.string()};
   const auto log = input / "log.clf";
   std::vector<std::string> sets{"input=" + (fs::exists(log) ? log : input).string()};
-  for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"}, {"plan", "plan.txt"}, {"estimate", variant + ".tum"}})
+  for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"},
+                                   {"plan", "plan.txt"},
+                                   {"estimate", variant + ".tum"}})
     if (declares(name) && fs::exists(input / file))
       sets.push_back(name + ("=" + (input / file).string()));
   return sets;
@@ -115,20 +123,26 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline, co
 void require_timed(const std::vector<std::string>& timed, const Plan& pipeline) {
   if (timed == ComparedFigures{}.timed) return;
   for (const std::string& first : timed)
-    if (std::ranges::none_of(pipeline.steps, [&](const PlannedStep& step) { return step.description->name.starts_with(first); }))
+    if (std::ranges::none_of(pipeline.steps, [&](const PlannedStep& step) {
+          return step.description->name.starts_with(first);
+        }))
       throw Error(
           "--time " + first + ": no step of " + pipeline.files.front() +
           " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
-/// The pipeline's name and those of the inputs become folders', and the former also names what lies beside an input.
-void require_good_names(const Options& options, const Plan& pipeline, const std::vector<std::string>& inputs) {
+/// The pipeline's name and those of the inputs become folders', and the former also names what lies
+/// beside an input.
+void require_good_names(const Options& options, const Plan& pipeline,
+                        const std::vector<std::string>& inputs) {
   if (const std::string fault = fault_of_file_name(pipeline.name); !fault.empty())
-    throw Error(pipeline.files.front() + ": its name " + in_quotes(pipeline.name) + ", of which compare makes a folder, " + fault);
+    throw Error(pipeline.files.front() + ": its name " + in_quotes(pipeline.name) +
+                ", of which compare makes a folder, " + fault);
   if (options.output.empty()) return;
   for (std::size_t k = 0; k < inputs.size(); ++k)
     if (const std::string fault = fault_of_file_name(inputs[k]); !fault.empty())
-      throw Error("--input " + options.inputs[k].string() + ": " + in_quotes(inputs[k]) + ", of which compare makes a folder in -o, " + fault);
+      throw Error("--input " + options.inputs[k].string() + ": " + in_quotes(inputs[k]) +
+                  ", of which compare makes a folder in -o, " + fault);
 }
 
 void compare(const Options& options) {
@@ -140,8 +154,11 @@ void compare(const Options& options) {
   for (std::size_t k = 0; k < options.inputs.size(); ++k)
     for (std::size_t n = 0; n < k; ++n)
       if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
-        throw Error("--input " + options.inputs[k].string() + ": is given twice, which would make the confidence look better than it is; leave one out");
-  if (is_set(options, "input")) throw Error("--set input=...: --input sets it; leave one of them out");
+        throw Error("--input " + options.inputs[k].string() +
+                    ": is given twice, which would make the confidence look better than it is; "
+                    "leave one out");
+  if (is_set(options, "input"))
+    throw Error("--set input=...: --input sets it; leave one of them out");
   require_timed(options.figures.timed, pipeline);
 
   // All that can be refused is refused before the first run.
@@ -154,10 +171,13 @@ void compare(const Options& options) {
       const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
       auto sets = sets_of(options.inputs[k], open, variant.name);
       if (!variant.alone) {
-        std::erase_if(sets, [&](const std::string& set) { return is_set(options, set.substr(0, set.find('='))); });
+        std::erase_if(sets, [&](const std::string& set) {
+          return is_set(options, set.substr(0, set.find('=')));
+        });
         sets.insert(sets.end(), options.sets.begin(), options.sets.end());
       }
-      runs[v].push_back({read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
+      runs[v].push_back(
+          {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
     }
   }
   const ExitGuard while_loading;
@@ -183,13 +203,15 @@ void compare(const Options& options) {
         run_options.store = store.get();
         const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
         const RunResult result = run_plan(run.plan, steps, run_options, console);
-        if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : ""; !unsettled.empty()) {
+        if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
+            !unsettled.empty()) {
           std::cerr << "plumb: " << unsettled << "\n";
           settled = false;
         }
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
-          std::cerr << variants[v].name << " on " << input_names[k] << ": " << io::fixed(result.seconds, 1) << " s\n";
+          std::cerr << variants[v].name << " on " << input_names[k] << ": "
+                    << io::fixed(result.seconds, 1) << " s\n";
       } catch (const std::exception& e) {
         std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
                   << ": " << e.what() << "\n";
@@ -223,7 +245,8 @@ void add_compare(CLI::App& app) {
   command->add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)")->required();
   command
       ->add_option("--variant", options->variants,
-                   "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set does not reach it); may be given again")
+                   "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set "
+                   "does not reach it); may be given again")
       ->required()
       ->allow_extra_args(false)
       ->check(fault_of_variant);
@@ -236,7 +259,8 @@ void add_compare(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--set", options->sets,
-                   "A parameter, a row or a step's parameter, in all runs of the pipeline and its presets; may be given again")
+                   "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
+                   "presets; may be given again")
       ->allow_extra_args(false);
   command
       ->add_option("--metric", options->figures.metrics,
@@ -246,7 +270,8 @@ void add_compare(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--time", options->figures.timed,
-                   "Steps whose time and iterations are compared: how their 'use' begins; may be given again")
+                   "Steps whose time and iterations are compared: how their 'use' begins; may be "
+                   "given again")
       ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
@@ -257,7 +282,8 @@ void add_compare(CLI::App& app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_option("--store", options->store.given,
-                      "Folder in which results are kept, as for run; what is taken from there counts as no time, so that by itself compare uses none");
+                      "Folder in which results are kept, as for run; what is taken from there "
+                      "counts as no time, so that by itself compare uses none");
   options->store.add_trust_to(*command);
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");

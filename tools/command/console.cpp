@@ -49,8 +49,9 @@ void Console::draw() {
   drawn_ = now;
   constexpr int width = 30;
   const int filled = items_ ? static_cast<int>(width * done_ / items_) : 0;
-  std::fprintf(stderr, "\r\033[K%-24s [%s%s] %zu/%zu", path_.c_str(), std::string(filled, '#').c_str(),
-               std::string(width - filled, ' ').c_str(), done_, items_);
+  std::fprintf(stderr, "\r\033[K%-24s [%s%s] %zu/%zu", path_.c_str(),
+               std::string(filled, '#').c_str(), std::string(width - filled, ' ').c_str(), done_,
+               items_);
   std::fflush(stderr);
 }
 
@@ -63,16 +64,21 @@ void Console::event(const Event& event) {
       done_ = 0;
       return draw();
     case Event::Kind::item:
-      if (io::plain(event.step) == path_) ++done_;  // not of one that passes its items on to this step
+      if (io::plain(event.step) == path_)
+        ++done_;  // not of one that passes its items on to this step
       return draw();
     case Event::Kind::step_ends:
       clear();
-      return log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration, path_, items_, items_ == 1 ? " " : "s", event.duration);
+      return log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration,
+                        path_, items_, items_ == 1 ? " " : "s", event.duration);
     case Event::Kind::pass_begins:
       clear();
-      return log_->info("{}: pass {} of at most {}", io::plain(event.step), event.pass + 1, event.items);
-    case Event::Kind::note: return note(io::plain(event.sentence));
-    default: return;
+      return log_->info("{}: pass {} of at most {}", io::plain(event.step), event.pass + 1,
+                        event.items);
+    case Event::Kind::note:
+      return note(io::plain(event.sentence));
+    default:
+      return;
   }
 }
 

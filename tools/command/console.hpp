@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-#include "plumb/engine/observer.hpp"
+#include "plumb/engine/observe/observer.hpp"
 
 namespace spdlog {
 class logger;
@@ -18,7 +18,8 @@ namespace plumb::command {
 /// The first line of a log file.
 inline constexpr const char* log_mark = "# What a run of plumb said";
 
-/// Writes to standard error, and every line to the end of `log_file` too when one is given. Safe from several threads.
+/// Writes to standard error, and every line to the end of `log_file` too when one is given. Safe
+/// from several threads.
 class Console final : public Observer {
  public:
   Console(bool quiet, const std::string& log_file);

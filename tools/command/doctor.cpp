@@ -1,4 +1,5 @@
-/// plumb doctor: what was found where, what was refused and why. Each module is loaded in a process of its own.
+/// plumb doctor: what was found where, what was refused and why. Each module is loaded in a process
+/// of its own.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,22 +32,26 @@ std::string trial(const std::string& file) {
   close(pipe_ends[1]);
   std::string said;
   char buffer[512];
-  for (ssize_t n; (n = read(pipe_ends[0], buffer, sizeof buffer)) > 0;) said.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n; (n = read(pipe_ends[0], buffer, sizeof buffer)) > 0;)
+    said.append(buffer, static_cast<std::size_t>(n));
   close(pipe_ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
-  if (WIFSIGNALED(status)) return std::string("crashes when it is loaded: ") + strsignal(WTERMSIG(status));
+  if (WIFSIGNALED(status))
+    return std::string("crashes when it is loaded: ") + strsignal(WTERMSIG(status));
   return said;
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app) {
-  auto* command = app.add_subcommand("doctor", "Says what modules were found where, and what was refused and why");
+  auto* command = app.add_subcommand(
+      "doctor", "Says what modules were found where, and what was refused and why");
   command->footer("Exit 1 when anything was refused.");
   command->callback([] {
     const Registry steps = installed_steps();
-    std::cout << "plumb " << PLUMB_VERSION << "\nABI: " << abi_tag() << "\n\nSearched, in this order:\n";
+    std::cout << "plumb " << PLUMB_VERSION << "\nABI: " << abi_tag()
+              << "\n\nSearched, in this order:\n";
     for (const auto& folder : steps.folders()) std::cout << "  " << folder.string() << "\n";
     std::set<std::string> modules;
     for (const StepDescription* step : steps.all()) modules.insert(step->module);
@@ -54,11 +59,16 @@ void add_doctor(CLI::App& app) {
     std::size_t good = 0;
     for (const std::string& module : modules) {
       const std::string fault = trial(module);
-      if (fault.empty()) ++good;
-      else refused.push_back({module, fault});
+      if (fault.empty())
+        ++good;
+      else
+        refused.push_back({module, fault});
     }
-    std::cout << "\n" << steps.all().size() << " steps in " << modules.size() << " modules; " << good << " load\n";
-    for (const Refusal& refusal : refused) std::cout << "refused: " << refusal.file.string() << "\n  " << refusal.why << "\n";
+    std::cout << "\n"
+              << steps.all().size() << " steps in " << modules.size() << " modules; " << good
+              << " load\n";
+    for (const Refusal& refusal : refused)
+      std::cout << "refused: " << refusal.file.string() << "\n  " << refusal.why << "\n";
     if (!refused.empty()) throw CLI::RuntimeError(1);
   });
 }

@@ -7,7 +7,7 @@
 
 #include "plumb/data/amount.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/slurm/slurm_executor.hpp"
+#include "plumb/engine/remote/slurm/slurm_executor.hpp"
 #include "worker_command.hpp"
 
 namespace plumb::command {
@@ -16,25 +16,44 @@ namespace {
 /// Less does not hold the program itself.
 constexpr std::uint64_t least_of_worker = std::uint64_t{64} << 20;
 
-std::uint64_t memory_of_machine() { return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
+std::uint64_t memory_of_machine() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
 
 }  // namespace
 
 void ExecutorOptions::add_to(CLI::App& command) {
-  command.add_flag("--isolate", isolate, "Make all calls in worker processes: a module that crashes or hangs costs its item");
-  command.add_option("--executor", executor, "Where calls are made: local, or slurm for the cluster whose machines share the store")
-      ->check(CLI::IsMember({"local", "slurm"}))->capture_default_str();
-  command.add_option("--executor-profile", profile, "Partition, time, memory, chunk and so on of the cluster's jobs (YAML)");
-  command.add_option("--time-limit", time_limit, "Of one call in a worker, such as 90s or 10min; without it 1h");
-  command.add_option("--item-memory", item_memory, "What a worker may allocate, such as 4GiB; without it --memory, or the machine's");
+  command.add_flag(
+      "--isolate", isolate,
+      "Make all calls in worker processes: a module that crashes or hangs costs its item");
+  command
+      .add_option(
+          "--executor", executor,
+          "Where calls are made: local, or slurm for the cluster whose machines share the store")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command.add_option("--executor-profile", profile,
+                     "Partition, time, memory, chunk and so on of the cluster's jobs (YAML)");
+  command.add_option("--time-limit", time_limit,
+                     "Of one call in a worker, such as 90s or 10min; without it 1h");
+  command.add_option(
+      "--item-memory", item_memory,
+      "What a worker may allocate, such as 4GiB; without it --memory, or the machine's");
 }
 
-std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t memory, bool verify_inputs, bool fresh, const Store* store) const {
+std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t memory,
+                                                bool verify_inputs, bool fresh,
+                                                const Store* store) const {
   const bool slurm = executor == "slurm";
-  if (!slurm && !profile.empty()) throw Error("--executor-profile " + profile.string() + ": is for --executor slurm, which is not given");
+  if (!slurm && !profile.empty())
+    throw Error("--executor-profile " + profile.string() +
+                ": is for --executor slurm, which is not given");
   if (!needs_store()) {
-    for (const auto& [option, value] : {std::pair("--item-memory ", item_memory), std::pair("--time-limit ", time_limit)})
-      if (!value.empty()) throw Error(option + value + ": is for workers; give --isolate or --executor slurm too");
+    for (const auto& [option, value] :
+         {std::pair("--item-memory ", item_memory), std::pair("--time-limit ", time_limit)})
+      if (!value.empty())
+        throw Error(option + value + ": is for workers; give --isolate or --executor slurm too");
     return nullptr;
   }
   WorkerCommand worker;
@@ -43,23 +62,37 @@ std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t 
   worker.contents = verify_inputs;
   WorkerOptions workers;
   workers.workers = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-  worker.memory = !item_memory.empty() ? bytes_of_text("--item-memory", item_memory) : memory > 0 ? memory / workers.workers : memory_of_machine();
+  worker.memory = !item_memory.empty() ? bytes_of_text("--item-memory", item_memory)
+                  : memory > 0         ? memory / workers.workers
+                                       : memory_of_machine();
   workers.command = words_of(worker);
-  workers.time_limit = std::chrono::duration<double>(age_of_text("--time-limit", time_limit.empty() ? "1h" : time_limit)).count();
-  if (*workers.time_limit <= 0 || *workers.time_limit > 1e8) throw Error("--time-limit " + time_limit + ": give a time above zero and below three years, as in 10min");
+  workers.time_limit = std::chrono::duration<double>(
+                           age_of_text("--time-limit", time_limit.empty() ? "1h" : time_limit))
+                           .count();
+  if (*workers.time_limit <= 0 || *workers.time_limit > 1e8)
+    throw Error("--time-limit " + time_limit +
+                ": give a time above zero and below three years, as in 10min");
   const auto require_enough = [&](std::uint64_t bytes, const std::string& given) {
-    if (bytes < least_of_worker) throw Error(given + ": leaves a worker " + text_of_bytes(bytes) + ", which is too little to run in; give 64MiB or more for each");
+    if (bytes < least_of_worker)
+      throw Error(given + ": leaves a worker " + text_of_bytes(bytes) +
+                  ", which is too little to run in; give 64MiB or more for each");
   };
-  require_enough(worker.memory, !item_memory.empty() ? "--item-memory " + item_memory : "--memory for " + std::to_string(workers.workers) + " workers");
+  require_enough(worker.memory,
+                 !item_memory.empty()
+                     ? "--item-memory " + item_memory
+                     : "--memory for " + std::to_string(workers.workers) + " workers");
   if (!slurm) return std::make_unique<IsolatedExecutor>(std::move(workers));
   SlurmOptions options;
   if (!profile.empty()) options.profile = read_profile(profile);
   options.store = store->folder();
   options.fresh = fresh;
-  if (item_memory.empty() && options.profile.memory > 0) worker.memory = options.profile.memory / options.profile.cpus;
+  if (item_memory.empty() && options.profile.memory > 0)
+    worker.memory = options.profile.memory / options.profile.cpus;
   require_enough(worker.memory, "memory of a chunk in " + profile.string());
   options.chunk_command = words_of(worker);
-  options.chunk_command.insert(options.chunk_command.end(), {"--cpus", std::to_string(options.profile.cpus), "--time-limit", std::to_string(*workers.time_limit)});
+  options.chunk_command.insert(options.chunk_command.end(),
+                               {"--cpus", std::to_string(options.profile.cpus), "--time-limit",
+                                std::to_string(*workers.time_limit)});
   return std::make_unique<SlurmExecutor>(std::move(options), std::move(workers));
 }
 

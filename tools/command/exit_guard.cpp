@@ -8,7 +8,7 @@
 
 #include "command.hpp"
 #include "plumb/data/io/staged_folder.hpp"
-#include "plumb/engine/running_call.hpp"
+#include "plumb/engine/run/running_call.hpp"
 
 namespace plumb::command {
 namespace {
@@ -20,7 +20,9 @@ void refuse_to_end() {
   if (guards == 0 || guarded != getpid()) return;
   io::remove_all_staging();
   const std::string call = RunningCall::title();
-  std::fprintf(stderr, "\nplumb: %s: its module ended the program (by exit), and nothing is written; a step must return, or throw plumb::Error\n",
+  std::fprintf(stderr,
+               "\nplumb: %s: its module ended the program (by exit), and nothing is written; a "
+               "step must return, or throw plumb::Error\n",
                call.empty() ? "a step" : call.c_str());
   _exit(exit_failed);
 }

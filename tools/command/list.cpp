@@ -6,7 +6,7 @@
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/pipeline/diagnostics.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/plugin/manifest.hpp"
 
 namespace plumb::command {
@@ -14,29 +14,40 @@ namespace {
 
 const char* word_of(Access access) {
   switch (access) {
-    case Access::item: return "";
-    case Access::ends: return "of both ends";
-    case Access::each: return "all, one at a time";
-    case Access::several: return "any number, labelled";
-    case Access::relative: return "only T_i_j of the edge";
-    case Access::over_edges: return "says which edges there are";
-    case Access::this_edge: return "only the edge itself";
+    case Access::item:
+      return "";
+    case Access::ends:
+      return "of both ends";
+    case Access::each:
+      return "all, one at a time";
+    case Access::several:
+      return "any number, labelled";
+    case Access::relative:
+      return "only T_i_j of the edge";
+    case Access::over_edges:
+      return "says which edges there are";
+    case Access::this_edge:
+      return "only the edge itself";
   }
   return "";
 }
 
 std::string type_text(const Type& type) {
-  return std::string(type.name) + (type.grain == Grain::whole ? "" : std::string(", one per ") + name_of(type.grain));
+  return std::string(type.name) +
+         (type.grain == Grain::whole ? "" : std::string(", one per ") + name_of(type.grain));
 }
 
 void print_step(const StepDescription& step) {
-  std::cout << step.name << "  version " << step.version << ", a " << name_of(step.kind) << "\n  " << step.summary << "\n";
+  std::cout << step.name << "  version " << step.version << ", a " << name_of(step.kind) << "\n  "
+            << step.summary << "\n";
   if (!step.source.empty()) std::cout << "  Source: " << step.source << "\n";
   std::cout << "\nInputs\n";
   for (const auto& port : step.inputs) {
     const std::string how = word_of(port.access);
-    std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type) << (how.empty() ? "" : " (" + how + ")")
-              << (port.optional ? ", may be left out" : "") << "\n" << std::string(16, ' ') << port.doc << "\n";
+    std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type)
+              << (how.empty() ? "" : " (" + how + ")") << (port.optional ? ", may be left out" : "")
+              << "\n"
+              << std::string(16, ' ') << port.doc << "\n";
   }
   if (step.inputs.empty()) std::cout << "  none\n";
   std::cout << "\nOutputs\n";
@@ -47,8 +58,10 @@ void print_step(const StepDescription& step) {
   std::cout << "\nParameters\n";
   for (const auto& p : step.parameters) {
     std::cout << "  " << p.name << ": " << range_text(p) << "; "
-              << (p.required ? std::string("required") : "default " + written(p, p.standard)) << "\n      " << p.doc << "\n";
-    for (const auto& choice : p.choices) std::cout << "        " << choice.name << ": " << choice.doc << "\n";
+              << (p.required ? std::string("required") : "default " + written(p, p.standard))
+              << "\n      " << p.doc << "\n";
+    for (const auto& choice : p.choices)
+      std::cout << "        " << choice.name << ": " << choice.doc << "\n";
     if (!p.source.empty()) std::cout << "      Source: " << p.source << "\n";
   }
   if (step.parameters.empty()) std::cout << "  none\n";
@@ -61,13 +74,16 @@ void add_list(CLI::App& app) {
   command->callback([] {
     const Registry steps = installed_steps();
     for (const StepDescription* step : steps.all())
-      std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind) << step->summary << "\n";
-    for (const Refusal& refusal : steps.refused()) std::cerr << "refused: " << refusal.file.string() << ": " << refusal.why << "\n";
+      std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind)
+                << step->summary << "\n";
+    for (const Refusal& refusal : steps.refused())
+      std::cerr << "refused: " << refusal.file.string() << ": " << refusal.why << "\n";
   });
 }
 
 void add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand("inspect", "Shows one step's ports, parameters, units, ranges, defaults and source");
+  auto* command = app.add_subcommand(
+      "inspect", "Shows one step's ports, parameters, units, ranges, defaults and source");
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   command->add_option("STEP", *name, "FAMILY.NAME, as in `plumb list`")->required();
@@ -79,11 +95,14 @@ void add_inspect(CLI::App& app) {
       std::vector<std::string> names;
       for (const StepDescription* known : steps.all()) names.push_back(known->name);
       const std::string close = pipeline::nearest(*name, names);
-      throw Error("there is no step '" + *name + "'." + (close.empty() ? "" : " Did you mean '" + close + "'?") +
+      throw Error("there is no step '" + *name + "'." +
+                  (close.empty() ? "" : " Did you mean '" + close + "'?") +
                   " `plumb list` shows all.");
     }
-    if (*as_json) std::cout << step_json(*step) << "\n";
-    else print_step(*step);
+    if (*as_json)
+      std::cout << step_json(*step) << "\n";
+    else
+      print_step(*step);
   });
 }
 

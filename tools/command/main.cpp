@@ -12,9 +12,9 @@
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/data/io/staged_folder.hpp"
 #include "plumb/data/io/plain_text.hpp"
-#include "plumb/pipeline/diagnostics.hpp"
+#include "plumb/data/io/staged_folder.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
 
 namespace plumb::command {
 
@@ -24,10 +24,13 @@ Registry installed_steps() { return Registry::scan(Registry::standard_folders(pl
 
 namespace {
 
-/// All that the command says goes through here: names, paths and values of others must not steer the terminal.
+/// All that the command says goes through here: names, paths and values of others must not steer
+/// the terminal.
 class PlainStream {
  public:
-  explicit PlainStream(std::ostream& stream) : stream_(stream), to_(stream.rdbuf()), plain_(*to_) { stream_.rdbuf(&plain_); }
+  explicit PlainStream(std::ostream& stream) : stream_(stream), to_(stream.rdbuf()), plain_(*to_) {
+    stream_.rdbuf(&plain_);
+  }
   PlainStream(const PlainStream&) = delete;
   ~PlainStream() { stream_.rdbuf(to_); }
 
@@ -43,10 +46,13 @@ class PlainStream {
 
 namespace {
 
-/// Takes the numbers of standard input, output and error if they are closed, so that no file of a run gets one of them and what is said there.
+/// Takes the numbers of standard input, output and error if they are closed, so that no file of a
+/// run gets one of them and what is said there.
 void open_standard_files() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(number, F_GETFD) < 0 && open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) _exit(plumb::command::exit_refused);
+    if (fcntl(number, F_GETFD) < 0 &&
+        open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+      _exit(plumb::command::exit_refused);
 }
 
 /// As many open files as the system lets it have: compare holds a few for each of its runs.
@@ -61,7 +67,8 @@ void allow_open_files() {
 int said() {
   errno = 0;
   if (std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
-  std::cerr << "plumb: standard output does not take what was to be said" << (errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : "")
+  std::cerr << "plumb: standard output does not take what was to be said"
+            << (errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : "")
             << "; all else is done\n";
   return plumb::command::exit_unsettled;
 }
@@ -72,21 +79,26 @@ int main(int argc, char** argv) {
   open_standard_files();
   allow_open_files();
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with -DPLUMB_ARCH= for any x86-64\n";
+    std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with "
+                 "-DPLUMB_ARCH= for any x86-64\n";
     return 1;
   }
   const plumb::command::PlainStream out(std::cout), err(std::cerr);
-  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.", "plumb"};
+  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.",
+               "plumb"};
   app.footer(
       "Start with:\n"
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
       "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
       "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
-      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused its input or failed while running;\n"
-      "4 done and all results in place, but something about them is not as it should be: standard output did not take what was to be said,\n"
+      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused "
+      "its input or failed while running;\n"
+      "4 done and all results in place, but something about them is not as it should be: standard "
+      "output did not take what was to be said,\n"
       "or the disk did not take the end of it; it is said which.");
   app.require_subcommand(1);
-  app.add_option("--plugin-path", plumb::command::plugin_path, "A further folder with modules (also PLUMB_PLUGIN_PATH)");
+  app.add_option("--plugin-path", plumb::command::plugin_path,
+                 "A further folder with modules (also PLUMB_PLUGIN_PATH)");
   app.set_version_flag("--version", PLUMB_VERSION);
   plumb::command::add_run(app);
   plumb::command::add_check(app);

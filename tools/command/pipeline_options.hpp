@@ -14,11 +14,15 @@ struct PipelineOptions {
 
   void add_to(CLI::App& command) {
     command.add_option("PIPELINE", file, "A pipeline or a preset (YAML)")->required();
-    command.add_option("--preset", overlay.presets, "A preset to lay over the pipeline; may be given again")
+    command
+        .add_option("--preset", overlay.presets,
+                    "A preset to lay over the pipeline; may be given again")
         ->allow_extra_args(false);
-    command.add_option("--set", overlay.sets,
-                       "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, coarse.kept.pairs_per_cluster=30; "
-                       "may be given again")
+    command
+        .add_option("--set", overlay.sets,
+                    "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, "
+                    "coarse.kept.pairs_per_cluster=30; "
+                    "may be given again")
         ->allow_extra_args(false);
   }
 };

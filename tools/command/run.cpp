@@ -11,10 +11,10 @@
 #include "plumb/data/amount.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
-#include "plumb/engine/event_file.hpp"
-#include "plumb/engine/output_folder.hpp"
+#include "plumb/engine/observe/event_file.hpp"
 #include "plumb/engine/preflight.hpp"
-#include "plumb/engine/runner.hpp"
+#include "plumb/engine/record/output_folder.hpp"
+#include "plumb/engine/run/runner.hpp"
 #include "side_file.hpp"
 #include "store_option.hpp"
 #include "summary.hpp"
@@ -46,12 +46,16 @@ Planned locked(const Options& options, const Registry& steps) {
   const RunRecord then = read_lock(options.locked);
   RunRecord now = record_now(then, steps, options.verify_inputs);
   std::string all;
-  for (const std::string& sentence : differences(then, now)) all += (all.empty() ? "" : "\nplumb: ") + name + ": " + sentence;
+  for (const std::string& sentence : differences(then, now))
+    all += (all.empty() ? "" : "\nplumb: ") + name + ": " + sentence;
   if (!all.empty()) throw Error(all);
   Plan plan = read_resolved(then.pipeline, name, steps);
   plan.name = then.name;
   plan.resolved = then.pipeline;
-  if (!describes(now, plan)) throw Error(name + ": its steps or inputs are not those of its pipeline; the record is damaged: run the pipeline itself to get a new one");
+  if (!describes(now, plan))
+    throw Error(name +
+                ": its steps or inputs are not those of its pipeline; the record is damaged: run "
+                "the pipeline itself to get a new one");
   return {std::move(plan), std::move(now)};
 }
 
@@ -68,9 +72,11 @@ class Listeners {
     return Observers(list);
   }
   void say_of_files(const std::filesystem::path& log) {
-    if (const std::string fault = console_.log_fault(); !fault.empty()) std::cerr << log.string() << ": is not whole: " << fault << "; the results are whole\n";
+    if (const std::string fault = console_.log_fault(); !fault.empty())
+      std::cerr << log.string() << ": is not whole: " << fault << "; the results are whole\n";
     for (const auto& file : files_)
-      if (const std::string fault = file->fault(); !fault.empty()) std::cerr << fault << "; the results are whole\n";
+      if (const std::string fault = file->fault(); !fault.empty())
+        std::cerr << fault << "; the results are whole\n";
   }
 
  private:
@@ -91,22 +97,30 @@ constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
 std::uint64_t memory_of_text(const std::string& text) {
   if (text.empty()) return 0;
   const std::uint64_t bytes = bytes_of_text("--memory", text);
-  if (bytes < least_memory) throw Error("--memory " + text + ": is too little to run in; give 256MiB or more");
+  if (bytes < least_memory)
+    throw Error("--memory " + text + ": is too little to run in; give 256MiB or more");
   return bytes;
 }
 
-/// An empty value is a mistake of a script: taken as none it would run without its bound, or into the user's store.
+/// An empty value is a mistake of a script: taken as none it would run without its bound, or into
+/// the user's store.
 void require_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
-      if (value.empty()) throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
+      if (value.empty())
+        throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
 }
 
 /// What leaves memory, and what workers make, goes through the store.
 void require_store(const Options& options, const Store* store) {
   if (store) return;
-  const char* needs = options.executor.needs_store() ? "--isolate and --executor slurm" : !options.memory.empty() ? "--memory" : options.explain ? "--explain" : nullptr;
-  if (needs) throw Error(std::string("a store is needed for ") + needs + ", but there is none; give --store DIR");
+  const char* needs = options.executor.needs_store() ? "--isolate and --executor slurm"
+                      : !options.memory.empty()      ? "--memory"
+                      : options.explain              ? "--explain"
+                                                     : nullptr;
+  if (needs)
+    throw Error(std::string("a store is needed for ") + needs +
+                ", but there is none; give --store DIR");
 }
 
 void run(Options& options) {
@@ -114,19 +128,24 @@ void run(Options& options) {
   if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
   const std::uint64_t memory = memory_of_text(options.memory);
   const Registry steps = options.untrusted.steps();
-  auto [plan, record] = options.locked.empty() ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}} : locked(options, steps);
+  auto [plan, record] =
+      options.locked.empty()
+          ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}}
+          : locked(options, steps);
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   const ExitGuard while_loading;
   preflight(plan, steps);
-  const std::vector<SideFile> side_files = {{"--log", options.log, "log", log_mark},
-                                            {"--events", options.events, "events", EventLines::mark},
-                                            {"--trace", options.trace, "trace", TraceFile::mark}};
+  const std::vector<SideFile> side_files = {
+      {"--log", options.log, "log", log_mark},
+      {"--events", options.events, "events", EventLines::mark},
+      {"--trace", options.trace, "trace", TraceFile::mark}};
   require_elsewhere(side_files, options.output);
   require_apart(options.store.folder(), options.output);
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
-  const auto executor = options.executor.make(options.threads, memory, options.verify_inputs, options.fresh, store.get());
+  const auto executor = options.executor.make(options.threads, memory, options.verify_inputs,
+                                              options.fresh, store.get());
   if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
   OutputFolder folder(options.output);
   for (const SideFile& file : side_files)
@@ -146,8 +165,10 @@ void run(Options& options) {
     if (options.explain)
       for (const Explained& step : result.explained) std::cout << step.text() << "\n";
     if (store) say_of_store(*store, result, options.quiet);
-    if (options.quiet) print_weak(std::cerr, result, false);
-    else print_summary(std::cout, plan, result, options.output, options.times);
+    if (options.quiet)
+      print_weak(std::cerr, result, false);
+    else
+      print_summary(std::cout, plan, result, options.output, options.times);
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
     throw CLI::RuntimeError(exit_failed);
@@ -160,36 +181,66 @@ void run(Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Checks and runs a pipeline and leaves its results in a folder");
+  auto* command =
+      app.add_subcommand("run", "Checks and runs a pipeline and leaves its results in a folder");
   auto options = std::make_shared<Options>();
   options->pipeline.add_to(*command);
   options->pipeline.overlay.needs_files = true;
-  command->add_option("-o,--output", options->output, "Folder for the results; an earlier run in it is replaced, if all in it is as the run left it")->required();
-  command->add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")->check(CLI::Range(0, 1024))->capture_default_str();
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for the results; an earlier run in it is replaced, if all in it is as "
+                   "the run left it")
+      ->required();
+  command
+      ->add_option("--threads", options->threads,
+                   "Threads to use; 0 for as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   options->store.add_to(*command);
   command->add_flag("--fresh", options->fresh, "Take nothing from the store; keep what is made");
-  command->add_flag("--explain", options->explain, "Say of each step whether its results were reused, and the first thing that differs from the last run");
-  command->add_option("--memory", options->memory, "Bound of resident memory, such as 2GiB: what does not fit waits in the store");
+  command->add_flag("--explain", options->explain,
+                    "Say of each step whether its results were reused, and the first thing that "
+                    "differs from the last run");
+  command->add_option(
+      "--memory", options->memory,
+      "Bound of resident memory, such as 2GiB: what does not fit waits in the store");
   options->executor.add_to(*command);
   options->untrusted.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");
-  command->add_flag("--times,!--no-times", options->times, "Show the time and memory that each step took (unless --no-times or --quiet)");
-  command->add_option("--log", options->log, "Also write progress and notes, with the time of day, to this file");
-  command->add_option("--events", options->events, "Also write all that happens to this file, as it happens: a JSON object a line");
-  command->add_option("--trace", options->trace, "Also write which item was made when and by which thread, for ui.perfetto.dev");
-  command->add_flag("--verify-inputs", options->verify_inputs, "Read the inputs' files to know them by content, not by size and time alone");
+  command->add_flag("--times,!--no-times", options->times,
+                    "Show the time and memory that each step took (unless --no-times or --quiet)");
+  command->add_option("--log", options->log,
+                      "Also write progress and notes, with the time of day, to this file");
+  command->add_option(
+      "--events", options->events,
+      "Also write all that happens to this file, as it happens: a JSON object a line");
+  command->add_option(
+      "--trace", options->trace,
+      "Also write which item was made when and by which thread, for ui.perfetto.dev");
+  command->add_flag("--verify-inputs", options->verify_inputs,
+                    "Read the inputs' files to know them by content, not by size and time alone");
   auto* pipeline = command->get_option("PIPELINE")->required(false);
-  command->add_option("--locked", options->locked, "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; takes no PIPELINE")
+  command
+      ->add_option("--locked", options->locked,
+                   "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
+                   "takes no PIPELINE")
       ->excludes(pipeline)
       ->excludes("--preset")
       ->excludes("--set");
-  command->get_option("--untrusted")->excludes("--locked")->excludes("--isolate")->excludes("--executor")->excludes("--executor-profile");
+  command->get_option("--untrusted")
+      ->excludes("--locked")
+      ->excludes("--isolate")
+      ->excludes("--executor")
+      ->excludes("--executor-profile");
   command->footer(
-      "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set input=DIR -o OUT\n"
-      "The results are the same for any number of threads. No results are left behind when a run fails or is interrupted.");
+      "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set "
+      "input=DIR -o OUT\n"
+      "The results are the same for any number of threads. No results are left behind when a run "
+      "fails or is interrupted.");
   command->callback([options, command] {
     require_values(*command);
-    if (options->locked.empty() && options->pipeline.file.empty()) throw CLI::RequiredError("PIPELINE or --locked");
+    if (options->locked.empty() && options->pipeline.file.empty())
+      throw CLI::RequiredError("PIPELINE or --locked");
     run(*options);
   });
 }

@@ -1,19 +1,22 @@
 /// plumb schema: the JSON Schema of pipelines, from what the installed steps declare.
 
+#include "plumb/pipeline/print/schema.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/pipeline/schema.hpp"
 
 namespace plumb::command {
 
 void add_schema(CLI::App& app) {
-  auto* command = app.add_subcommand("schema", "Writes the JSON Schema of pipelines, for editors and a second judge");
+  auto* command = app.add_subcommand(
+      "schema", "Writes the JSON Schema of pipelines, for editors and a second judge");
   auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("-o,--output", *folder, "Folder for pipeline.schema.json; without it, it is printed");
+  command->add_option("-o,--output", *folder,
+                      "Folder for pipeline.schema.json; without it, it is printed");
   command->callback([folder] {
     const std::string text = pipeline_schema(installed_steps());
     if (folder->empty()) {

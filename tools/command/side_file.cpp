@@ -18,7 +18,8 @@ fs::path place_of(const fs::path& path) {
 }
 
 bool within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
 }
 
 /// The first bytes of a file.
@@ -38,9 +39,13 @@ void require_elsewhere(const std::vector<SideFile>& files, const fs::path& outpu
     if (files[k].file.empty()) continue;
     const auto file = place_of(files[k].file);
     const std::string place = files[k].option + " " + files[k].file.string() + ": ";
-    if (within(file, folder)) throw Error(place + "lies in the folder for the results, which holds what steps wrote alone; name a file beside it");
+    if (within(file, folder))
+      throw Error(place +
+                  "lies in the folder for the results, which holds what steps wrote alone; name a "
+                  "file beside it");
     for (std::size_t n = 0; n < k; ++n)
-      if (!files[n].file.empty() && place_of(files[n].file) == file) throw Error(place + "is what " + files[n].option + " writes too; name another file");
+      if (!files[n].file.empty() && place_of(files[n].file) == file)
+        throw Error(place + "is what " + files[n].option + " writes too; name another file");
   }
 }
 
@@ -48,16 +53,22 @@ void require_apart(const fs::path& store, const fs::path& output) {
   if (store.empty()) return;
   const auto results = place_of(store), folder = place_of(output);
   if (within(results, folder))
-    throw Error("--store " + store.string() + ": lies in the folder for the results, which holds what steps wrote alone; name a folder beside it");
-  if (within(folder, results)) throw Error("-o " + output.string() + ": lies in the store " + store.string() + ", which holds its own files alone; give another folder");
+    throw Error("--store " + store.string() +
+                ": lies in the folder for the results, which holds what steps wrote alone; name a "
+                "folder beside it");
+  if (within(folder, results))
+    throw Error("-o " + output.string() + ": lies in the store " + store.string() +
+                ", which holds its own files alone; give another folder");
 }
 
 void begin(const SideFile& side) {
   const std::string place = side.option + " " + side.file.string() + ": ";
   std::error_code error;
   const auto status = fs::status(side.file, error);
-  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;  // a pipe or a device: nothing stands in it that could be lost
-  if (fs::is_directory(status) || (fs::is_regular_file(status) && fs::file_size(side.file) > 0 && begin_of(side.file, side.mark.size()) != side.mark))
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    return;  // a pipe or a device: nothing stands in it that could be lost
+  if (fs::is_directory(status) || (fs::is_regular_file(status) && fs::file_size(side.file) > 0 &&
+                                   begin_of(side.file, side.mark.size()) != side.mark))
     throw Error(place + "exists and is no " + side.what + " of plumb; name another file");
   std::ofstream out(side.file);
   out.close();

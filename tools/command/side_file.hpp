@@ -14,14 +14,16 @@ struct SideFile {
   std::string mark;            ///< how the first line of each such file begins
 };
 
-/// Makes sure that none lies in the folder for the results, which holds what the run made and nothing else, or is another of them.
-/// Throws Error.
+/// Makes sure that none lies in the folder for the results, which holds what the run made and
+/// nothing else, or is another of them. Throws Error.
 void require_elsewhere(const std::vector<SideFile>& files, const std::filesystem::path& output);
 
-/// Makes sure that neither the store (empty: there is none) nor the folder for the results lies in the other. Throws Error.
+/// Makes sure that neither the store (empty: there is none) nor the folder for the results lies in
+/// the other. Throws Error.
 void require_apart(const std::filesystem::path& store, const std::filesystem::path& output);
 
-/// Empties the file; an earlier one of the same kind is replaced, pipes and devices are left as they are. Throws Error: something else is there; it cannot be written.
+/// Empties the file; an earlier one of the same kind is replaced, pipes and devices are left as
+/// they are. Throws Error: something else is there; it cannot be written.
 void begin(const SideFile& file);
 
 }  // namespace plumb::command

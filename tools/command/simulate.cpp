@@ -1,6 +1,5 @@
 /// plumb simulate: a laser-SLAM sequence with exact truth.
 
-#include "interrupt.hpp"
 #include "simulate/simulate.hpp"
 
 #include <unistd.h>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "command/command.hpp"
+#include "interrupt.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
@@ -119,7 +119,7 @@ struct Made {
 };
 
 Made made_by(const Arguments& arguments,
-                    const std::function<void(std::size_t, std::size_t)>& progress) {
+             const std::function<void(std::size_t, std::size_t)>& progress) {
   remove_staging_when_interrupted();
   char line[256];
   if (is_indoor(arguments)) {
@@ -149,7 +149,8 @@ void run(const Arguments& arguments) {
   const Made made = made_by(arguments, progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  std::cout << arguments.output.string() << ": " << made.line << " (" << io::fixed(seconds, 1) << " s)\n";
+  std::cout << arguments.output.string() << ": " << made.line << " (" << io::fixed(seconds, 1)
+            << " s)\n";
   if (made.unsettled.empty()) return;
   std::cerr << "plumb: " << made.unsettled << "\n";
   throw CLI::RuntimeError(exit_unsettled);

@@ -16,7 +16,8 @@ std::string rounded(double value) {
   return text.str();
 }
 
-/// Numbers called "STAGE" or "STAGE.NAME" of all measures as one table: a row a stage, a column a measure.
+/// Numbers called "STAGE" or "STAGE.NAME" of all measures as one table: a row a stage, a column a
+/// measure.
 void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result) {
   std::vector<std::string> columns, rows;
   std::map<std::pair<std::string, std::string>, std::string> cells;
@@ -48,27 +49,32 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
     out << std::left << std::setw(static_cast<int>(first)) << row;
     for (const auto& column : columns) {
       const auto at = cells.find({row, column});
-      out << "  " << std::right << std::setw(static_cast<int>(column.size())) << (at == cells.end() ? "-" : at->second);
+      out << "  " << std::right << std::setw(static_cast<int>(column.size()))
+          << (at == cells.end() ? "-" : at->second);
     }
     out << "\n";
   }
 }
 
 void print_times(std::ostream& out, const RunResult& result) {
-  out << "\nCPU seconds of each step, most memory [MiB] that the run held meanwhile (items made, items remembered)\n";
+  out << "\nCPU seconds of each step, most memory [MiB] that the run held meanwhile (items made, "
+         "items remembered)\n";
   for (const StepTime& time : result.times)
-    out << "  " << std::left << std::setw(28) << time.path << std::right << std::fixed << std::setprecision(2) << std::setw(9)
-        << time.cpu_seconds << std::setw(8) << (time.peak_bytes + (1 << 19)) / (1 << 20) << "  (" << time.items << ", " << time.remembered << ")\n";
+    out << "  " << std::left << std::setw(28) << time.path << std::right << std::fixed
+        << std::setprecision(2) << std::setw(9) << time.cpu_seconds << std::setw(8)
+        << (time.peak_bytes + (1 << 19)) / (1 << 20) << "  (" << time.items << ", "
+        << time.remembered << ")\n";
 }
 
 }  // namespace
 
 void print_weak(std::ostream& out, const RunResult& result, bool warnings) {
-  for (const std::string& sentence : weaknesses(result, warnings)) out << "weak: " << sentence << "\n";
+  for (const std::string& sentence : weaknesses(result, warnings))
+    out << "weak: " << sentence << "\n";
 }
 
-void print_summary(std::ostream& out, const Plan& plan, const RunResult& result, const std::filesystem::path& folder,
-                   bool times) {
+void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
+                   const std::filesystem::path& folder, bool times) {
   print_numbers(out, plan, result);
   out << "\n";
   for (const LoopEnd& loop : result.loops)
@@ -76,8 +82,9 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   for (const StepCount& count : result.counts) out << "counted: " << count.text() << "\n";
   print_weak(out, result, true);
   if (times) print_times(out, result);
-  out << plan.name << ": " << std::fixed << std::setprecision(1) << result.seconds << " s, " << std::setprecision(2)
-      << static_cast<double>(result.peak_bytes) / (1 << 30) << " GiB at most\n";
+  out << plan.name << ": " << std::fixed << std::setprecision(1) << result.seconds << " s, "
+      << std::setprecision(2) << static_cast<double>(result.peak_bytes) / (1 << 30)
+      << " GiB at most\n";
   out << "in " << folder.string() << ":";
   for (const MadeDocument& made : result.documents) out << " " << made.document->name;
   out << " run.lock.yaml\n";

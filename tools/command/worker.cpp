@@ -1,15 +1,16 @@
-/// plumb worker: makes calls for a run in another process, at the other end of a socket or as a chunk of a Slurm job.
+/// plumb worker: makes calls for a run in another process, at the other end of a socket or as a
+/// chunk of a Slurm job.
 
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
-#include "plumb/engine/slurm/chunk.hpp"
-#include "plumb/engine/worker/service.hpp"
+#include "plumb/engine/remote/slurm/chunk.hpp"
+#include "plumb/engine/remote/worker/service.hpp"
 #include "worker_command.hpp"
 
 namespace plumb::command {
@@ -24,12 +25,17 @@ struct Options {
 };
 
 /// Whether a driver is at the other end of a socket; a chunk has none.
-bool is_connected(const Options& options) { return options.task.empty() && fcntl(WorkerProcess::channel, F_GETFD) >= 0; }
+bool is_connected(const Options& options) {
+  return options.task.empty() && fcntl(WorkerProcess::channel, F_GETFD) >= 0;
+}
 
 void run(Options& options) {
   if (options.task.empty() && !is_connected(options))
-    throw Error("worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor slurm', not by hand");
-  Store store(options.worker.store, StoreRole::worker, options.worker.trusted ? Whose::anyones : Whose::own);
+    throw Error(
+        "worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor "
+        "slurm', not by hand");
+  Store store(options.worker.store, StoreRole::worker,
+              options.worker.trusted ? Whose::anyones : Whose::own);
   if (!options.task.empty()) {
     WorkerOptions workers;
     workers.command = words_of(options.worker);
@@ -54,18 +60,23 @@ void run_or_refuse(Options& options) {
 }  // namespace
 
 void add_worker(CLI::App& app) {
-  auto* command = app.add_subcommand("worker", "Makes calls for a run: started by run --isolate and by Slurm jobs");
+  auto* command = app.add_subcommand(
+      "worker", "Makes calls for a run: started by run --isolate and by Slurm jobs");
   auto options = std::make_shared<Options>();
   command->add_option("--store", options->worker.store, "Folder of the run's results")->required();
   command->add_flag("--trust-store", options->worker.trusted, "The store may be anyone's");
-  command->add_option("--memory", options->worker.memory, "What the process may allocate [bytes]; 0 for no bound");
+  command->add_option("--memory", options->worker.memory,
+                      "What the process may allocate [bytes]; 0 for no bound");
   command->add_flag("--contents", options->worker.contents, "Input files count by their content");
   command->add_option("--task", options->task, "The calls of a Slurm job");
-  command->add_option("--chunk-size", options->chunk_size, "Calls of a chunk")->check(CLI::PositiveNumber);
+  command->add_option("--chunk-size", options->chunk_size, "Calls of a chunk")
+      ->check(CLI::PositiveNumber);
   command->add_option("--cpus", options->cpus, "Calls at a time")->check(CLI::Range(1, 1024));
   command->add_option("--time-limit", options->time_limit, "Of one call [s]; 0 for none");
   command->add_option("--chunk", options->chunk, "Which chunk, from 0");
-  command->footer("Example: none; it is not meant to be started by hand. `plumb run --help` has --isolate and --executor.");
+  command->footer(
+      "Example: none; it is not meant to be started by hand. `plumb run --help` has --isolate and "
+      "--executor.");
   command->callback([options] { run_or_refuse(*options); });
 }
 

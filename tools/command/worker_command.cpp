@@ -6,8 +6,10 @@ namespace plumb::command {
 
 std::vector<std::string> words_of(const WorkerCommand& worker) {
   std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string()};
-  for (const auto& folder : plugin_path) words.insert(words.end(), {"--plugin-path", std::filesystem::absolute(folder).string()});
-  words.insert(words.end(), {"worker", "--store", std::filesystem::absolute(worker.store).string()});
+  for (const auto& folder : plugin_path)
+    words.insert(words.end(), {"--plugin-path", std::filesystem::absolute(folder).string()});
+  words.insert(words.end(),
+               {"worker", "--store", std::filesystem::absolute(worker.store).string()});
   if (worker.memory > 0) words.insert(words.end(), {"--memory", std::to_string(worker.memory)});
   if (worker.trusted) words.push_back("--trust-store");
   if (worker.contents) words.push_back("--contents");

@@ -1,4 +1,5 @@
-/// plumb_manifest MODULE.so OUT.json: writes what the module's steps declare. The build runs it for each module.
+/// plumb_manifest MODULE.so OUT.json: writes what the module's steps declare. The build runs it for
+/// each module.
 
 #include <exception>
 #include <fstream>
@@ -14,7 +15,8 @@ int main(int argc, char** argv) {
   }
   try {
     plumb::Manifest manifest{plumb::abi_tag(), {}};
-    for (const plumb::Step* step : plumb::load_module(argv[1])) manifest.steps.push_back(step->description());
+    for (const plumb::Step* step : plumb::load_module(argv[1]))
+      manifest.steps.push_back(step->description());
     std::ofstream out(argv[2]);
     out << plumb::manifest_text(manifest);
     out.close();

@@ -17,8 +17,13 @@ using Eigen::Vector3f;
 
 class Builder {
  public:
-  Builder(const Street& street, const Ground& ground, float half_width, std::size_t repeat, std::uint64_t seed)
-      : street_(street), ground_(ground), half_width_(half_width), repeat_(repeat), random_(mix(seed)) {}
+  Builder(const Street& street, const Ground& ground, float half_width, std::size_t repeat,
+          std::uint64_t seed)
+      : street_(street),
+        ground_(ground),
+        half_width_(half_width),
+        repeat_(repeat),
+        random_(mix(seed)) {}
 
   void build() {
     for (const float side : {1.0f, -1.0f}) front_row(side);
@@ -66,7 +71,8 @@ class Builder {
         s = static_cast<double>(k = block * repeat_);
         random_ = Random(mix(random_seed_, call));
       }
-      if (repeat_ > 0 && repeat_ - k % repeat_ <= block_gap) {  // nothing reaches over into the next
+      if (repeat_ > 0 &&
+          repeat_ - k % repeat_ <= block_gap) {  // nothing reaches over into the next
         s = static_cast<double>((block + 1) * repeat_);
         continue;
       }

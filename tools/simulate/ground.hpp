@@ -50,7 +50,8 @@ class Ground {
 /// The ground under the points `path` (about one a metre; x, y and the ground's z there [m]), with
 /// `margin` [m] around: near the path a mean of the nearby points' heights, a few metres smooth, so
 /// that passes that disagree share one street; farther away an ever smoother one. Beyond `kerb` [m]
-/// from every point a pavement 0.12 m higher, then uneven land, grown from `seed`; `unevenness` 0 keeps it even.
+/// from every point a pavement 0.12 m higher, then uneven land, grown from `seed`; `unevenness` 0
+/// keeps it even.
 Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float margin,
                     std::uint64_t seed, float unevenness = 1);
 

@@ -110,9 +110,10 @@ Ground ground_under(const std::vector<Eigen::Vector3f>& path, float kerb, float 
     for (int i = 0; i < size.columns; ++i) {
       const float d = distance[size.at(i, j)];
       const float x = cell * static_cast<float>(i), y = cell * static_cast<float>(j);
-      height[size.at(i, j)] += box.low.z() + 0.12f * ramp(d, kerb - 0.5f, kerb + 0.5f) +
-                               unevenness * 0.05f * ramp(d, kerb - 1, kerb + 3) * bumps(x, y, 4, seed) +
-                               unevenness * 0.25f * ramp(d, kerb + 1, kerb + 4) * bumps(x, y, 17, seed + 1);
+      height[size.at(i, j)] +=
+          box.low.z() + 0.12f * ramp(d, kerb - 0.5f, kerb + 0.5f) +
+          unevenness * 0.05f * ramp(d, kerb - 1, kerb + 3) * bumps(x, y, 4, seed) +
+          unevenness * 0.25f * ramp(d, kerb + 1, kerb + 4) * bumps(x, y, 17, seed + 1);
     }
   return {low, cell, size.columns, size.rows, std::move(height)};
 }

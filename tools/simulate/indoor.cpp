@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/engine/parallel.hpp"
+#include "plumb/engine/run/parallel.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
 
@@ -154,7 +154,11 @@ IndoorSummary simulate(const IndoorScene& scene, const std::filesystem::path& fo
   output.write("odometry.tum", tum_text(kept(stage.odometry, stage)));
   output.write("plan.txt", plan_text(stage.building.walls));
   std::string unsettled = output.finish(scene_text(stage.scene));
-  return {scans, lost, log.size(), way_length(stage.drive.poses), greatest_error(stage),
+  return {scans,
+          lost,
+          log.size(),
+          way_length(stage.drive.poses),
+          greatest_error(stage),
           std::move(unsettled)};
 }
 

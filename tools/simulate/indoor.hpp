@@ -33,8 +33,8 @@ IndoorStage set_up(const IndoorScene& scene);
 /// What was written.
 struct IndoorSummary {
   std::size_t scans = 0, lost = 0, bytes = 0;
-  double length = 0;  ///< of the true path [m]
-  double drift = 0;   ///< greatest position error of the odometry [m]
+  double length = 0;      ///< of the true path [m]
+  double drift = 0;       ///< greatest position error of the odometry [m]
   std::string unsettled;  ///< what OutputFolder::finish said
 };
 

@@ -42,8 +42,10 @@ class Simulation {
     if (!scene || !scene->starts_with(scene_mark))
       refuse(shown_, "holds something that the simulator did not make");
     for (const std::string& name : names)
-      if (name == "frames" && folder_.inode_of(name).value_or(0) != 0) look_at_frames();
-      else look_at(folder_, name, name);
+      if (name == "frames" && folder_.inode_of(name).value_or(0) != 0)
+        look_at_frames();
+      else
+        look_at(folder_, name, name);
     hashes_.erase(scene_file);
     const auto end = scene->rfind(hash_line);
     if (end == scene->npos || scene->substr(end) != last_line(hashes_, scene->substr(0, end)))

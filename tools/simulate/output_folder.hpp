@@ -21,9 +21,9 @@ class OutputFolder {
   /// Writes a file; from any number of threads. Throws Error when the disk does not take it.
   void write(const std::string& name, const std::string& bytes);
 
-  /// Writes scene.yaml, which also holds a hash of all that was written, and moves the folder to its
-  /// place, in which an earlier simulation is replaced. Gives a sentence about what is not as it
-  /// should be although the folder is in place; empty if all is well.
+  /// Writes scene.yaml, which also holds a hash of all that was written, and moves the folder to
+  /// its place, in which an earlier simulation is replaced. Gives a sentence about what is not as
+  /// it should be although the folder is in place; empty if all is well.
   std::string finish(const std::string& scene);
 
  private:

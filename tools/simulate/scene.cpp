@@ -42,8 +42,9 @@ const std::vector<Option>& options() {
        &Scene::height},
       {"street_width", "distance between houses where one lane is driven", Quantity::length, 8, 100,
        &Scene::street_width},
-      {"alike", "path after which the streets repeat themselves, blocks of equal houses; 0 m: never", Quantity::length, 0, 1e6,
-       &Scene::alike},
+      {"alike",
+       "path after which the streets repeat themselves, blocks of equal houses; 0 m: never",
+       Quantity::length, 0, 1e6, &Scene::alike},
       {"drift", "greatest position error of the odometry; 10 m for 2.9 km if not given",
        Quantity::length, 0, 1e4, &Scene::drift},
       {"seed", "picks the city, the noise and the drift: the same seed, the same bytes",
@@ -70,7 +71,8 @@ Scene settled(Scene scene) {
   if (scene.highest < scene.lowest)
     throw Error("scene: the highest line lies below the lowest; exchange the two angles");
   if (scene.alike > 0 && scene.alike < 40)
-    throw Error("scene: 'alike' leaves no room for houses in blocks of less than 40 m; give more, or 0 m");
+    throw Error(
+        "scene: 'alike' leaves no room for houses in blocks of less than 40 m; give more, or 0 m");
   const bool transplant = !scene.drift_odometry.empty();
   if (transplant && scene.drift)
     throw Error(

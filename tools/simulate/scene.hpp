@@ -28,9 +28,9 @@ struct Scene {
   double range = 120;                         ///< [m]
   double height = 1.73;                       ///< of the sensor above the ground [m]
   double street_width = 14;                   ///< [m]
-  double alike = 0;                           ///< path after which streets look the same again [m]; 0: never
-  std::optional<double> drift;                ///< [m]
-  std::string drift_odometry, drift_truth;    ///< both or neither: drift to transplant
+  double alike = 0;             ///< path after which streets look the same again [m]; 0: never
+  std::optional<double> drift;  ///< [m]
+  std::string drift_odometry, drift_truth;  ///< both or neither: drift to transplant
   std::int64_t seed = 1;
 };
 

@@ -24,7 +24,8 @@ std::string text_of(const std::filesystem::path& file) try {
   constexpr std::uint64_t most = 64 << 10;
   return std::string(io::FileBytes(file, most, "scene").view());
 } catch (const Error& e) {
-  throw Error(std::string(e.what()) + "; name a scene file or one of: " + suggestion("", shipped_scenes()));
+  throw Error(std::string(e.what()) +
+              "; name a scene file or one of: " + suggestion("", shipped_scenes()));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/cloud_file.hpp"
 #include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/engine/parallel.hpp"
+#include "plumb/engine/run/parallel.hpp"
 #include "simulate/drift.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
@@ -97,8 +97,9 @@ Summary simulate(const Scene& scene, const std::filesystem::path& folder, int th
   output.write("truth.tum", tum_text(stage.truth));
   output.write("odometry.tum", tum_text(stage.odometry));
   const std::string unsettled = output.finish(scene_text(stage.scene));
-  return {frames, points, bytes, travelled(stage.truth).back(),
-          drift_of(stage.odometry, stage.truth), unsettled};
+  return {
+      frames,   points, bytes, travelled(stage.truth).back(), drift_of(stage.odometry, stage.truth),
+      unsettled};
 }
 
 }  // namespace plumb::simulate

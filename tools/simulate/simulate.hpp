@@ -31,8 +31,8 @@ struct Summary {
   std::size_t frames = 0;
   std::size_t points = 0;
   std::size_t bytes = 0;
-  double length = 0;  ///< of the true path [m]
-  double drift = 0;   ///< drift_of the odometry [m]
+  double length = 0;      ///< of the true path [m]
+  double drift = 0;       ///< drift_of the odometry [m]
   std::string unsettled;  ///< what OutputFolder::finish said
 };
 

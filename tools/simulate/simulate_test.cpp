@@ -173,7 +173,8 @@ TEST(Simulate, StreetsThatAreAlikeRepeatThemselves) {
   // A straight way of 240 m, a pose a metre; frames 100 and 160 lie one block apart.
   const TemporaryFolder folder("alike");
   std::string poses;
-  for (int k = 0; k < 240; ++k) poses += std::to_string(0.1 * k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+  for (int k = 0; k < 240; ++k)
+    poses += std::to_string(0.1 * k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
   Scene scene;
   write(folder.path() / "way.tum", poses);
   scene.path = (folder.path() / "way.tum").string();

@@ -45,8 +45,8 @@ class World {
 /// A city along `path` (sensor positions [m], which the sensor holds `sensor_height` above the
 /// ground): houses on both sides, at least half a `street_width` from every part of the path, so
 /// that a street looks the same on each pass; walls and hedges between them, parked cars, poles,
-/// trees. The same seed gives the same city. With `alike` [m] above 0 the streets repeat themselves after so much of the path where the surroundings
-/// leave room for it: blocks of equal houses.
+/// trees. The same seed gives the same city. With `alike` [m] above 0 the streets repeat themselves
+/// after so much of the path where the surroundings leave room for it: blocks of equal houses.
 World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
                  double street_width, double alike, std::uint64_t seed);
 

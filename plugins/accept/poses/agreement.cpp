@@ -5,7 +5,8 @@
 
 namespace plumb {
 
-std::vector<std::uint32_t> common_points(const Segment& i, const Segment& j, const Pose& before, const Pose& after, const AgreementOptions& options) {
+std::vector<std::uint32_t> common_points(const Segment& i, const Segment& j, const Pose& before,
+                                         const Pose& after, const AgreementOptions& options) {
   const auto margin = static_cast<float>(options.max_distance);
   const Eigen::Vector3f low = j.box.low.array() - margin, high = j.box.high.array() + margin;
   const Motion motions[] = {Motion(before), Motion(after)};
@@ -19,11 +20,13 @@ std::vector<std::uint32_t> common_points(const Segment& i, const Segment& j, con
     }
   std::vector<std::uint32_t> chosen;
   const std::size_t n = std::min<std::size_t>(inside.size(), options.max_points);
-  for (std::size_t s = 0; s < n; ++s) chosen.push_back(inside[(2 * s + 1) * inside.size() / (2 * n)]);
+  for (std::size_t s = 0; s < n; ++s)
+    chosen.push_back(inside[(2 * s + 1) * inside.size() / (2 * n)]);
   return chosen;
 }
 
-double disagreement(const Segment& i, const Segment& j, const std::vector<std::uint32_t>& points, const Pose& T_j_i, const AgreementOptions& options) {
+double disagreement(const Segment& i, const Segment& j, const std::vector<std::uint32_t>& points,
+                    const Pose& T_j_i, const AgreementOptions& options) {
   if (points.empty()) return -1;
   const Motion motion(T_j_i);
   const auto most = static_cast<float>(options.max_distance);
@@ -36,7 +39,8 @@ double disagreement(const Segment& i, const Segment& j, const std::vector<std::u
       continue;
     }
     const bool plane = j.cloud.has_normals() && !j.cloud.normal(nearest.index).isZero();
-    sum += plane ? std::abs(j.cloud.normal(nearest.index).dot(p - j.cloud.point(nearest.index))) : std::sqrt(nearest.squared_distance);
+    sum += plane ? std::abs(j.cloud.normal(nearest.index).dot(p - j.cloud.point(nearest.index)))
+                 : std::sqrt(nearest.squared_distance);
   }
   return sum / static_cast<double>(points.size());
 }

@@ -23,19 +23,28 @@ void add(Cloud& cloud, const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
 }
 Cloud random_cloud(std::size_t count, bool normals, std::uint64_t seed) {
   Random random(seed);
-  const auto vector = [&] { return Eigen::Vector3f::NullaryExpr([&](Eigen::Index) { return static_cast<float>(2 * random.uniform() - 1); }); };
+  const auto vector = [&] {
+    return Eigen::Vector3f::NullaryExpr(
+        [&](Eigen::Index) { return static_cast<float>(2 * random.uniform() - 1); });
+  };
   Cloud cloud;
   for (std::size_t k = 0; k < count; ++k) {
-    const Eigen::Vector3f p = 5 * vector(), n = k % 10 == 0 ? Eigen::Vector3f::Zero() : Eigen::Vector3f(vector().normalized());
-    if (normals) add(cloud, p, n);
-    else cloud.add(p);
+    const Eigen::Vector3f p = 5 * vector(), n = k % 10 == 0
+                                                    ? Eigen::Vector3f::Zero()
+                                                    : Eigen::Vector3f(vector().normalized());
+    if (normals)
+      add(cloud, p, n);
+    else
+      cloud.add(p);
   }
   return cloud;
 }
 /// A floor and two walls that cross over its middle, 10 m wide and 3 m high.
 Cloud crossing() {
   Random random(1);
-  const auto u = [&](double low, double high) { return static_cast<float>(low + (high - low) * random.uniform()); };
+  const auto u = [&](double low, double high) {
+    return static_cast<float>(low + (high - low) * random.uniform());
+  };
   Cloud cloud;
   for (int k = 0; k < 500; ++k) {
     add(cloud, {u(-5, 5), u(-5, 5), 0}, {0, 0, 1});
@@ -49,21 +58,28 @@ Cloud wall(double from, double to) {
   Random random(2);
   Cloud cloud;
   for (int k = 0; k < 400; ++k)
-    add(cloud, {0, static_cast<float>(from + (to - from) * random.uniform()), static_cast<float>(1 + random.uniform())}, {1, 0, 0});
+    add(cloud,
+        {0, static_cast<float>(from + (to - from) * random.uniform()),
+         static_cast<float>(1 + random.uniform())},
+        {1, 0, 0});
   return cloud;
 }
 Pose shifted(double x, double y, double z) { return {Eigen::Quaterniond::Identity(), {x, y, z}}; }
 /// Of the points that one pose alone chooses.
-double disagreement_at(const Segment& i, const Segment& j, const Pose& T_j_i, const AgreementOptions& options) {
+double disagreement_at(const Segment& i, const Segment& j, const Pose& T_j_i,
+                       const AgreementOptions& options) {
   return disagreement(i, j, common_points(i, j, T_j_i, T_j_i, options), T_j_i, options);
 }
 bool in_box(const Segment& j, const Eigen::Vector3d& p, double margin) {
-  return ((p - j.box.low.cast<double>()).array() >= -margin).all() && ((p - j.box.high.cast<double>()).array() <= margin).all();
+  return ((p - j.box.low.cast<double>()).array() >= -margin).all() &&
+         ((p - j.box.high.cast<double>()).array() <= margin).all();
 }
 
 TEST(CommonPoints, LieInTheWidenedBoxUnderOneOfThePosesAtLeast) {
-  const Segment i = segment_of(random_cloud(1000, false, 1)), j = segment_of(random_cloud(1000, false, 2));
-  const Pose before(exp_rotation({0.1, -0.2, 0.7}), {7, -1, 0.5}), after(exp_rotation({0, 0.1, 0.2}), {-6, 3, 0});
+  const Segment i = segment_of(random_cloud(1000, false, 1)),
+                j = segment_of(random_cloud(1000, false, 2));
+  const Pose before(exp_rotation({0.1, -0.2, 0.7}), {7, -1, 0.5}),
+      after(exp_rotation({0, 0.1, 0.2}), {-6, 3, 0});
   std::vector<std::uint32_t> expected;
   for (std::uint32_t k = 0; k < i.cloud.size(); ++k) {
     const Eigen::Vector3d p = i.cloud.point(k).cast<double>();
@@ -88,7 +104,8 @@ TEST(Disagreement, IsHowFarAWallLiesOffAndNothingAlongIt) {
 TEST(Disagreement, AgreesWithComparingEachWithEach) {
   const Pose T_j_i(exp_rotation({0.1, -0.2, 0.7}), {2, -1, 0.5});
   for (const bool normals : {false, true}) {
-    const Segment i = segment_of(random_cloud(600, normals, 1)), j = segment_of(random_cloud(600, normals, 2));
+    const Segment i = segment_of(random_cloud(600, normals, 1)),
+                  j = segment_of(random_cloud(600, normals, 2));
     const AgreementOptions all{0.8, 10000};
     double sum = 0;
     int inside = 0;
@@ -119,13 +136,17 @@ TEST(Disagreement, CountsAPointFarFromAllAsTheMostDistance) {
   Cloud points;
   points.add({0, 0, 0});
   points.add({5, 5, 4.5});
-  EXPECT_NEAR(disagreement_at(segment_of(points), segment_of(corners), Pose(), {2, 300}), (2 + 0.5) / 2, 1e-6);
+  EXPECT_NEAR(disagreement_at(segment_of(points), segment_of(corners), Pose(), {2, 300}),
+              (2 + 0.5) / 2, 1e-6);
 }
 
 TEST(Disagreement, SeesAFlatCloudThatLiesOutsideTheOthersFlatBox) {
   Random random(3);
   Cloud floor;
-  for (int k = 0; k < 400; ++k) add(floor, {static_cast<float>(10 * random.uniform()), static_cast<float>(10 * random.uniform()), 0}, {0, 0, 1});
+  for (int k = 0; k < 400; ++k)
+    add(floor,
+        {static_cast<float>(10 * random.uniform()), static_cast<float>(10 * random.uniform()), 0},
+        {0, 0, 1});
   const Segment s = segment_of(floor);
   EXPECT_NEAR(disagreement_at(s, s, shifted(0, 0, 0.3), {1, 300}), 0.3, 1e-6);
 }
@@ -139,19 +160,25 @@ TEST(Disagreement, IsNegativeWhereNoPointLiesInTheOthersWidenedBox) {
 
 TEST(Disagreement, AsksPointsHalfwayBetweenThoseThatEvenlySpacedPairsTake) {
   const Segment j = segment_of(crossing());
-  Cloud cloud = wall(1, 3);  // 400 points; pairs of 40 of them take each tenth from the first one on
+  Cloud cloud =
+      wall(1, 3);  // 400 points; pairs of 40 of them take each tenth from the first one on
   for (std::size_t k = 0; k < cloud.size(); ++k) cloud.x[k] = k % 10 == 5 ? 0.4f : 0.0f;
   EXPECT_NEAR(disagreement_at(segment_of(cloud), j, Pose(), {1, 40}), 0.4, 1e-6);
   for (std::size_t k = 0; k < cloud.size(); ++k) cloud.x[k] = k % 10 == 0 ? 0.4f : 0.0f;
   EXPECT_NEAR(disagreement_at(segment_of(cloud), j, Pose(), {1, 40}), 0, 1e-6);
 }
 
-// ---- the step ---------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Four segments that see the same crossing from the same place, joined to a ring.
 struct Stage {
   std::vector<Segment> segments = std::vector<Segment>(4, segment_of(crossing()));
-  Edges edges{4, {{0, 1, EdgeKind::sequential, 1, 0}, {0, 3, EdgeKind::loop, 1, 0}, {1, 2, EdgeKind::sequential, 1, 0}, {2, 3, EdgeKind::sequential, 1, 0}}};
+  Edges edges{4,
+              {{0, 1, EdgeKind::sequential, 1, 0},
+               {0, 3, EdgeKind::loop, 1, 0},
+               {1, 2, EdgeKind::sequential, 1, 0},
+               {2, 3, EdgeKind::sequential, 1, 0}}};
   Poses before = off({0, 0, 0, 0}), after = off({0, 0, 0, 0});
 
   static Poses off(const std::vector<double>& y) {
@@ -173,7 +200,8 @@ struct Stage {
     const auto poses = step().run<Poses>("poses", context);
     const bool accepted = metrics().numbers[0].value == 1;
     const auto& expected = accepted ? after : before;
-    for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(poses.T_world_segment[k].translation, expected.T_world_segment[k].translation);
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      EXPECT_EQ(poses.T_world_segment[k].translation, expected.T_world_segment[k].translation);
     return accepted;
   }
 };
@@ -212,7 +240,8 @@ TEST(AcceptPoses, TakesWhatIsWorseByNoMoreThanTheTolerance) {
     stage.after = Stage::off({0, y, 0, y});
     TestContext context;
     auto step = stage.step();
-    step.set("max_points", std::int64_t(100000)).set("tolerance", tolerance);  // all points, so that samples do not differ
+    step.set("max_points", std::int64_t(100000))
+        .set("tolerance", tolerance);  // all points, so that samples do not differ
     return step.run<Metrics>("metrics", context).numbers[0].value == 1;
   };
   EXPECT_TRUE(accepted(0.303, 0.03));
@@ -248,7 +277,8 @@ TEST(AcceptPoses, GivesTheMeanDistancesOfBothClassesBeforeAndAfter) {
   const auto of = [&](std::size_t i, std::size_t j) {
     const Segment &a = stage.segments[i], &b = stage.segments[j];
     const Pose T_before = stage.before.relative(j, i);
-    return disagreement(a, b, common_points(a, b, T_before, stage.after.relative(j, i), {}), T_before, {});
+    return disagreement(a, b, common_points(a, b, T_before, stage.after.relative(j, i), {}),
+                        T_before, {});
   };
   EXPECT_NEAR(mean["sequential_before"], (of(0, 1) + of(1, 2) + of(2, 3)) / 3, 1e-12);
   EXPECT_NEAR(mean["others_before"], of(0, 3), 1e-12);
@@ -257,8 +287,8 @@ TEST(AcceptPoses, GivesTheMeanDistancesOfBothClassesBeforeAndAfter) {
 }
 
 TEST(AcceptPoses, AsksTheSamePointsUnderBothPoses) {
-  // Before, only half of i lies at j, and where j fits; after it all of i does, also where j is 0.5 m off. Points chosen for each pose
-  // alone would fit before, and the stage would be refused.
+  // Before, only half of i lies at j, and where j fits; after it all of i does, also where j is 0.5
+  // m off. Points chosen for each pose alone would fit before, and the stage would be refused.
   Stage stage;
   Cloud i, j;
   for (int k = 0; k < 200; ++k) {
@@ -272,7 +302,8 @@ TEST(AcceptPoses, AsksTheSamePointsUnderBothPoses) {
   EXPECT_TRUE(stage.takes_after());
   std::map<std::string, double> mean;
   for (const auto& number : stage.metrics().numbers) mean[number.name] = number.value;
-  EXPECT_NEAR(mean["sequential_before"], 0.45, 0.02) << "90 of 200 points lie more than 1 m before j's first";
+  EXPECT_NEAR(mean["sequential_before"], 0.45, 0.02)
+      << "90 of 200 points lie more than 1 m before j's first";
   EXPECT_NEAR(mean["sequential_after"], 0.25, 0.02);
 }
 
@@ -307,7 +338,11 @@ TEST(AcceptPoses, MultipliesTheMostDistanceByAScale) {
   Stage stage;
   stage.after = Stage::off({0, 100, 200, 300});
   TestContext context;
-  const auto numbers = stage.step().set("max_distance", 0.8).with("scale", Metrics().add("scale", 0.5, "")).run<Metrics>("metrics", context).numbers;
+  const auto numbers = stage.step()
+                           .set("max_distance", 0.8)
+                           .with("scale", Metrics().add("scale", 0.5, ""))
+                           .run<Metrics>("metrics", context)
+                           .numbers;
   EXPECT_NEAR(numbers[2].value, 0.4, 1e-12);
 }
 

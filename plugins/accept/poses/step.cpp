@@ -33,18 +33,30 @@ struct AcceptPoses : WholeStep {
 
   static void describe(Declaration<AcceptPoses>& is) {
     is.name("accept.poses").version(1).source("ours");
-    is.summary("Takes a stage's poses only if points of the clouds, chosen anew, agree as well under them as before.");
+    is.summary(
+        "Takes a stage's poses only if points of the clouds, chosen anew, agree as well under them "
+        "as before.");
     is.input("before", &In::before, "where the segments were before the stage");
     is.input("after", &In::after, "where the stage has put them");
     is.input("edges", &In::edges, "which segments should agree");
     is.input("segments", &In::segments, "their clouds, best with normals");
     is.scale(&In::scale);
-    is.output("poses", &Out::poses, "'after', or 'before' where the stage made it worse, which is noted");
-    is.output("metrics", &Out::metrics, "1 or 0: accepted; mean distances before and after, along the path and between visits");
-    is.param("max_distance", &Params::max_distance).unit("m").range(1e-3, 1000)
+    is.output("poses", &Out::poses,
+              "'after', or 'before' where the stage made it worse, which is noted");
+    is.output(
+        "metrics", &Out::metrics,
+        "1 or 0: accepted; mean distances before and after, along the path and between visits");
+    is.param("max_distance", &Params::max_distance)
+        .unit("m")
+        .range(1e-3, 1000)
         .doc("points without a nearer one in the other segment count as if they were so far off");
-    is.param("max_points", &Params::max_points).range(10, 1e9).doc("points of a segment that are asked for each edge, evenly chosen");
-    is.param("tolerance", &Params::tolerance).unit("%").range(0, 10).doc("what may be worse by so little counts as equal");
+    is.param("max_points", &Params::max_points)
+        .range(10, 1e9)
+        .doc("points of a segment that are asked for each edge, evenly chosen");
+    is.param("tolerance", &Params::tolerance)
+        .unit("%")
+        .range(0, 10)
+        .doc("what may be worse by so little counts as equal");
   }
 
   /// Sums over the edges of one class.
@@ -57,17 +69,20 @@ struct AcceptPoses : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.before->size() != count || in.after->size() != count || in.edges->segments != count)
-      throw Error("there are " + std::to_string(count) + " segments, " + std::to_string(in.before->size()) + " and " +
-                  std::to_string(in.after->size()) + " poses, and edges of " + std::to_string(in.edges->segments) +
+      throw Error("there are " + std::to_string(count) + " segments, " +
+                  std::to_string(in.before->size()) + " and " + std::to_string(in.after->size()) +
+                  " poses, and edges of " + std::to_string(in.edges->segments) +
                   " segments: wire what belongs to the same segments");
     const auto& edges = in.edges->list;
     std::vector<std::array<double, 2>> values(edges.size());
     const AgreementOptions options{params.max_distance, params.max_points};
     context.parallel(edges.size(), [&](std::size_t k) {
       const auto i = in.segments.open(edges[k].i), j = in.segments.open(edges[k].j);
-      const Pose before = in.before->relative(edges[k].j, edges[k].i), after = in.after->relative(edges[k].j, edges[k].i);
+      const Pose before = in.before->relative(edges[k].j, edges[k].i),
+                 after = in.after->relative(edges[k].j, edges[k].i);
       const auto points = common_points(*i, *j, before, after, options);
-      values[k] = {disagreement(*i, *j, points, before, options), disagreement(*i, *j, points, after, options)};
+      values[k] = {disagreement(*i, *j, points, before, options),
+                   disagreement(*i, *j, points, after, options)};
       // Clouds that are apart disagree as much as is counted.
       for (double& value : values[k])
         if (value < 0) value = params.max_distance;
@@ -78,7 +93,9 @@ struct AcceptPoses : WholeStep {
       side.before += values[k][0], side.after += values[k][1];
       ++side.edges;
     }
-    const auto worse = [&](const Side& side) { return side.after > (1 + params.tolerance) * side.before; };
+    const auto worse = [&](const Side& side) {
+      return side.after > (1 + params.tolerance) * side.before;
+    };
     const bool accepted = !worse(along) && !worse(visits);
     Out out{accepted ? *in.after : *in.before, {}};
     out.metrics.add("accepted", accepted, "")
@@ -88,9 +105,11 @@ struct AcceptPoses : WholeStep {
         .add("others_after", visits.mean(visits.after), "m");
     if (!accepted) {
       const Side& side = worse(along) ? along : visits;
-      out.metrics.notes.push_back("the stage made it worse and is not taken: points of their clouds lie " + rounded(side.mean(side.before)) +
-                                  " from the neighbours' surfaces before and " + rounded(side.mean(side.after)) + " after it (" +
-                                  (worse(along) ? "consecutive segments" : "other edges") + ")");
+      out.metrics.notes.push_back(
+          "the stage made it worse and is not taken: points of their clouds lie " +
+          rounded(side.mean(side.before)) + " from the neighbours' surfaces before and " +
+          rounded(side.mean(side.after)) + " after it (" +
+          (worse(along) ? "consecutive segments" : "other edges") + ")");
     }
     return out;
   }

@@ -15,7 +15,9 @@ std::vector<std::size_t> placing_edges(std::size_t segments, const Edges& edges,
   std::vector<std::size_t> placing(segments, none);
   for (std::size_t k = 0; k < edges.size(); ++k) {
     std::size_t& best = placing[edges.list[k].j];
-    const auto rank = [&](std::size_t e) { return std::pair(registrations[e].accepted, edges.list[e].i); };
+    const auto rank = [&](std::size_t e) {
+      return std::pair(registrations[e].accepted, edges.list[e].i);
+    };
     if (best == none || rank(best) < rank(k)) best = k;
   }
   return placing;
@@ -23,8 +25,8 @@ std::vector<std::size_t> placing_edges(std::size_t segments, const Edges& edges,
 
 }  // namespace
 
-Chained chained(const Poses& initial, const Edges& edges, std::span<const Registration> registrations,
-                const ChainOptions& options) {
+Chained chained(const Poses& initial, const Edges& edges,
+                std::span<const Registration> registrations, const ChainOptions& options) {
   const std::size_t count = initial.size();
   if (edges.segments != count || edges.size() != registrations.size())
     throw Error("there are " + std::to_string(count) + " poses, but the registrations are of " +
@@ -65,10 +67,12 @@ Chained chained(const Poses& initial, const Edges& edges, std::span<const Regist
       poses[k] = interpolate(poses[last], poses[j], share);
       ++result.interpolated;
     }
-    for (std::size_t k = 0; k < j && last == none; ++k) poses[k] = poses[j] * initial.relative(j, k);
+    for (std::size_t k = 0; k < j && last == none; ++k)
+      poses[k] = poses[j] * initial.relative(j, k);
     last = j;
   }
-  for (std::size_t k = last + 1; last != none && k < count; ++k) poses[k] = poses[last] * initial.relative(last, k);
+  for (std::size_t k = last + 1; last != none && k < count; ++k)
+    poses[k] = poses[last] * initial.relative(last, k);
   return result;
 }
 

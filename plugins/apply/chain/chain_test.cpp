@@ -16,7 +16,8 @@ struct Drive {
   Edges edges;
   std::vector<Registration> registrations;
 
-  explicit Drive(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}) {
+  explicit Drive(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs = {
+                     {0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}) {
     for (int k = 0; k < 6; ++k) {
       truth.T_world_segment.push_back(in_space({0.5 * k, 0.1 * k * k, 0.3 * k}));
       odometry.T_world_segment.push_back(in_space({0.55 * k, 0.1 * k * k - 0.04 * k, 0.33 * k}));
@@ -39,7 +40,8 @@ TEST(ApplyChain, BringsExactRegistrationsToTheTruth) {
   const Drive drive;
   const auto result = drive.chain();
   for (int k = 0; k < 6; ++k)
-    EXPECT_LT(distance(result.poses.T_world_segment[k], drive.truth.T_world_segment[k]), 1e-12) << k;
+    EXPECT_LT(distance(result.poses.T_world_segment[k], drive.truth.T_world_segment[k]), 1e-12)
+        << k;
   ASSERT_EQ(result.relations.relative.size(), 5u);
   EXPECT_TRUE(result.relations.planar);
   EXPECT_EQ(result.relations.relative[2].information(0, 0), 100);
@@ -50,7 +52,8 @@ TEST(ApplyChain, StartsAtTheFirstInitialPose) {
   Drive drive;
   const Pose home = in_space({7, 8, 2});
   for (Pose& pose : drive.odometry.T_world_segment) pose = home * pose;
-  EXPECT_LT(distance(drive.chain().poses.T_world_segment[5], home * drive.truth.T_world_segment[5]), 1e-12);
+  EXPECT_LT(distance(drive.chain().poses.T_world_segment[5], home * drive.truth.T_world_segment[5]),
+            1e-12);
 }
 
 TEST(ApplyChain, PutsTheInitialMotionWhereARegistrationIsNotAccepted) {
@@ -94,9 +97,11 @@ TEST(ApplyChain, StartsAnewWhereNoEdgeEnds) {
 TEST(ApplyChain, BelievesTheNearestAcceptedOfSeveralEdges) {
   Drive drive({{0, 1}, {0, 2}, {1, 2}});
   drive.registrations[1].T_i_j.translation.x() += 1;
-  EXPECT_LT(distance(drive.chain().poses.T_world_segment[2], drive.truth.T_world_segment[2]), 1e-12);
+  EXPECT_LT(distance(drive.chain().poses.T_world_segment[2], drive.truth.T_world_segment[2]),
+            1e-12);
   drive.registrations[1].accepted = true, drive.registrations[2].accepted = false;
-  EXPECT_NEAR(distance(drive.chain().poses.T_world_segment[2], drive.truth.T_world_segment[2]), 1, 1e-9);
+  EXPECT_NEAR(distance(drive.chain().poses.T_world_segment[2], drive.truth.T_world_segment[2]), 1,
+              1e-9);
 }
 
 TEST(ApplyChain, IsNotPlanarWhereAMotionLeavesThePlane) {
@@ -127,7 +132,9 @@ TEST(ApplyChain, CountsAndWarnsOnce) {
                            .each("registrations", drive.registrations, drive.edges)
                            .run<Metrics>("metrics", context);
   ASSERT_EQ(context.warnings.size(), 1u);
-  EXPECT_EQ(context.warnings[0], "2 of 5 registrations are not accepted: the initial motion stands there, with little weight");
+  EXPECT_EQ(
+      context.warnings[0],
+      "2 of 5 registrations are not accepted: the initial motion stands there, with little weight");
   EXPECT_EQ(metrics.numbers[1].value, 4);
   EXPECT_NEAR(metrics.numbers[2].value, 0.02, 1e-6);
   EXPECT_EQ(metrics.numbers[3].name, "mae_median");

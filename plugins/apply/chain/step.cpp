@@ -23,10 +23,14 @@ struct ApplyChain : WholeStep {
     is.name("apply.chain").version(1).source("[Zhang2023] 2");
     is.summary("Composes the registrations of consecutive segments into a trajectory.");
     is.input("poses", &In::poses, "where the segments are before, as the odometry has it");
-    is.input("registrations", &In::registrations, "how each segment of a chain lies on one before it");
-    is.output("poses", &Out::poses, "where the segments are now; those that no edge reaches lie between their neighbours");
+    is.input("registrations", &In::registrations,
+             "how each segment of a chain lies on one before it");
+    is.output(
+        "poses", &Out::poses,
+        "where the segments are now; those that no edge reaches lie between their neighbours");
     is.output("relations", &Out::relations, "the registrations, for solve.pose_graph");
-    is.output("metrics", &Out::metrics, "how many registrations, their iterations, distances and overlap on average");
+    is.output("metrics", &Out::metrics,
+              "how many registrations, their iterations, distances and overlap on average");
     is.param("weak_translation", &Params::weak_translation)
         .unit("m")
         .range(1e-4, 1000)
@@ -39,7 +43,8 @@ struct ApplyChain : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     std::vector<Registration> registrations(in.registrations.size());
-    context.parallel(registrations.size(), [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
+    context.parallel(registrations.size(),
+                     [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
     Chained chain = chained(*in.poses, in.registrations.edges(), registrations, params);
 
     Out out;
@@ -47,12 +52,17 @@ struct ApplyChain : WholeStep {
     out.metrics.add("not_accepted", static_cast<double>(chain.replaced), "")
         .add("interpolated", static_cast<double>(chain.interpolated), "");
     if (chain.replaced) {
-      context.count("registrations not accepted and replaced by the initial motion", chain.replaced);
-      context.warn(std::to_string(chain.replaced) + " of " + std::to_string(registrations.size()) +
-                   " registrations are not accepted: the initial motion stands there, with little weight");
+      context.count("registrations not accepted and replaced by the initial motion",
+                    chain.replaced);
+      context.warn(
+          std::to_string(chain.replaced) + " of " + std::to_string(registrations.size()) +
+          " registrations are not accepted: the initial motion stands there, with little weight");
     }
-    if (chain.interpolated) context.count("segments without a registration, put between their neighbours", chain.interpolated);
-    if (chain.starts) context.count("places where the chain starts anew, after the initial motion", chain.starts);
+    if (chain.interpolated)
+      context.count("segments without a registration, put between their neighbours",
+                    chain.interpolated);
+    if (chain.starts)
+      context.count("places where the chain starts anew, after the initial motion", chain.starts);
     out.poses = std::move(chain.poses);
     out.relations = std::move(chain.relations);
     return out;

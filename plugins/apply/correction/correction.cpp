@@ -33,15 +33,16 @@ Trajectory corrected(const Trajectory& trajectory, const std::vector<Range>& ran
   check(trajectory, ranges, poses);
   const auto way = travelled(trajectory);
   const auto by = [&](std::size_t segment, std::size_t frame) {
-    return poses.T_world_segment[segment] * (ranges[segment].T_world_segment.inverse() *
-                                             trajectory.T_world_frame[frame]);
+    return poses.T_world_segment[segment] *
+           (ranges[segment].T_world_segment.inverse() * trajectory.T_world_frame[frame]);
   };
   Trajectory result;
   result.stamps = trajectory.stamps;
   result.T_world_frame.reserve(trajectory.size());
   for (std::size_t s = 0; s < ranges.size(); ++s) {
     for (std::size_t frame = ranges[s].first; frame < ranges[s].end; ++frame) {
-      // The two segments whose middles lie round the frame; the same one twice at the ends of the run.
+      // The two segments whose middles lie round the frame; the same one twice at the ends of the
+      // run.
       const bool early = frame < middle(ranges[s]);
       const std::size_t a = early && s > 0 ? s - 1 : s;
       const std::size_t b = !early && s + 1 < ranges.size() ? s + 1 : s;

@@ -54,8 +54,10 @@ TEST(Correction, MakesNoStepWhereASegmentEnds) {
     const auto result = corrected(run.trajectory, run.ranges, run.poses, blend);
     double largest = 0;
     for (std::size_t k = 1; k < result.size(); ++k)
-      largest = std::max(largest, distance(result.T_world_frame[k - 1].inverse() * result.T_world_frame[k],
-                                           run.trajectory.T_world_frame[k - 1].inverse() * run.trajectory.T_world_frame[k]));
+      largest = std::max(largest,
+                         distance(result.T_world_frame[k - 1].inverse() * result.T_world_frame[k],
+                                  run.trajectory.T_world_frame[k - 1].inverse() *
+                                      run.trajectory.T_world_frame[k]));
     return largest;
   };
   EXPECT_NEAR(largest_step(false), 1.0, 1e-9);

@@ -22,7 +22,8 @@ struct ApplyCorrection : WholeStep {
         .version(1)
         .summary("Gives every frame its new pose, from the new poses of the segments.")
         .source("ours; [Tang2024] stops at segments");
-    is.input("trajectory", &In::trajectory, "the poses of all frames as they were cut into segments");
+    is.input("trajectory", &In::trajectory,
+             "the poses of all frames as they were cut into segments");
     is.input("ranges", &In::ranges, "the segments' frames, and where the segments were");
     is.input("poses", &In::poses, "where the segments are now");
     is.output("trajectory", &Out::trajectory, "the corrected poses of all frames");

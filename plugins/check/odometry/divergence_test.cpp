@@ -10,19 +10,25 @@ namespace {
 
 CheckedOdometry check(const Trajectory& odometry, const Drive& of = drive()) {
   TestContext context;
-  return check_odometry(odometry, [&](std::size_t k) { return std::make_shared<const Frame>(of.frames[k]); }, {}, context);
+  return check_odometry(
+      odometry, [&](std::size_t k) { return std::make_shared<const Frame>(of.frames[k]); }, {},
+      context);
 }
 
 double worst_place(const Trajectory& a, const Trajectory& b) {
   double worst = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, (a.T_world_frame[k].translation - b.T_world_frame[k].translation).norm());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    worst =
+        std::max(worst, (a.T_world_frame[k].translation - b.T_world_frame[k].translation).norm());
   return worst;
 }
 
 constexpr std::uint32_t middle = 18;
 
-/// One divergence that begins within 5 frames (which are compared at once) of the first wrong motion, and ends within as many of the last one.
-void expect_one(const CheckedOdometry& checked, std::uint32_t first_wrong, std::uint32_t last_wrong) {
+/// One divergence that begins within 5 frames (which are compared at once) of the first wrong
+/// motion, and ends within as many of the last one.
+void expect_one(const CheckedOdometry& checked, std::uint32_t first_wrong,
+                std::uint32_t last_wrong) {
   ASSERT_EQ(checked.divergences.size(), 1u);
   const Divergence& d = checked.divergences[0];
   EXPECT_LE(d.first, first_wrong + 5);
@@ -31,7 +37,8 @@ void expect_one(const CheckedOdometry& checked, std::uint32_t first_wrong, std::
   EXPECT_LE(d.last, last_wrong + 5);
 }
 
-// ---- odometry that is good enough -------------------------------------------------------------------------------------------
+// ---- odometry that is good enough
+// -------------------------------------------------------------------------------------------
 
 TEST(CheckOdometry, ContradictsNoneThatIsTrue) {
   ASSERT_GT(drive().frames[0].cloud.size(), 1800u);
@@ -55,37 +62,49 @@ TEST(CheckOdometry, ContradictsNoneThatIsNoisy) {
   std::mt19937 random(2);
   std::normal_distribution<double> g;
   const auto odometry = changed(drive().truth, [&](auto, const Pose& motion) {
-    return motion * Pose(exp_rotation({0, 0, 0.003 * g(random)}), {0.04 * g(random), 0.04 * g(random), 0.02 * g(random)});
+    return motion * Pose(exp_rotation({0, 0, 0.003 * g(random)}),
+                         {0.04 * g(random), 0.04 * g(random), 0.02 * g(random)});
   });
   EXPECT_TRUE(check(odometry).divergences.empty());
 }
 
 TEST(CheckOdometry, ContradictsNoneThatStopsWhereTheSensorDoes) {
   const Drive stopping = drive_of(0.6, 12, 24);
-  ASSERT_LT((stopping.truth.T_world_frame[12].inverse() * stopping.truth.T_world_frame[24]).translation.norm(), 1e-9);
+  ASSERT_LT((stopping.truth.T_world_frame[12].inverse() * stopping.truth.T_world_frame[24])
+                .translation.norm(),
+            1e-9);
   EXPECT_TRUE(check(stopping.truth, stopping).divergences.empty());
 }
 
-// ---- odometry that is not ---------------------------------------------------------------------------------------------------
+// ---- odometry that is not
+// ---------------------------------------------------------------------------------------------------
 
 TEST(CheckOdometry, FindsWhereItDoublesItsPath) {
-  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle ? scaled(motion, 2) : motion; });
+  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle ? scaled(motion, 2) : motion;
+  });
   const auto checked = check(odometry);
   expect_one(checked, middle, 35);
-  EXPECT_NEAR(checked.divergences[0].odometry_path / checked.divergences[0].registered_path, 2, 0.3);
+  EXPECT_NEAR(checked.divergences[0].odometry_path / checked.divergences[0].registered_path, 2,
+              0.3);
   EXPECT_LT(worst_place(checked.trajectory, drive().truth), 1.5);
 }
 
 TEST(CheckOdometry, FindsWhereItHalvesItsPath) {
-  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle ? scaled(motion, 0.5) : motion; });
+  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle ? scaled(motion, 0.5) : motion;
+  });
   const auto checked = check(odometry);
   expect_one(checked, middle, 35);
-  EXPECT_NEAR(checked.divergences[0].odometry_path / checked.divergences[0].registered_path, 0.5, 0.15);
+  EXPECT_NEAR(checked.divergences[0].odometry_path / checked.divergences[0].registered_path, 0.5,
+              0.15);
   EXPECT_LT(worst_place(checked.trajectory, drive().truth), 1.5);
 }
 
 TEST(CheckOdometry, FindsWhereItStandsStill) {
-  const auto odometry = changed(slow_drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle ? Pose() : motion; });
+  const auto odometry = changed(slow_drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle ? Pose() : motion;
+  });
   const auto checked = check(odometry, slow_drive());
   expect_one(checked, middle, 35);
   EXPECT_LT(checked.divergences[0].odometry_path, 0.2 * checked.divergences[0].registered_path);
@@ -93,8 +112,9 @@ TEST(CheckOdometry, FindsWhereItStandsStill) {
 }
 
 TEST(CheckOdometry, FindsWhereItStandsStillForAWhile) {
-  const auto odometry =
-      changed(slow_drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle - 6 && k < middle + 6 ? Pose() : motion; });
+  const auto odometry = changed(slow_drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle - 6 && k < middle + 6 ? Pose() : motion;
+  });
   const auto checked = check(odometry, slow_drive());
   expect_one(checked, middle - 6, middle + 6);
   EXPECT_LT(worst_place(checked.trajectory, slow_drive().truth), 1.5);
@@ -114,7 +134,8 @@ TEST(CheckOdometry, FindsWhereItGoesOnWhileTheSensorStands) {
 TEST(CheckOdometry, FindsWhereItTurnsBy90Degrees) {
   for (const double angle : {90 * degree, -90 * degree}) {
     const auto odometry = changed(drive().truth, [&](std::uint32_t k, const Pose& motion) {
-      return k == middle ? Pose(motion.rotation * exp_rotation({0, 0, angle}), motion.translation) : motion;
+      return k == middle ? Pose(motion.rotation * exp_rotation({0, 0, angle}), motion.translation)
+                         : motion;
     });
     const auto checked = check(odometry);
     expect_one(checked, middle, middle + 1);
@@ -146,7 +167,8 @@ TEST(CheckOdometry, FindsEachOfTwoDivergences) {
   EXPECT_LT(worst_place(checked.trajectory, drive().truth), 1.5);
 }
 
-/// Outside the divergence each motion is the odometry's, to the last bit that products of poses leave.
+/// Outside the divergence each motion is the odometry's, to the last bit that products of poses
+/// leave.
 TEST(CheckOdometry, LeavesAllOtherMotionsAsTheyAre) {
   const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) {
     return k == middle ? Pose(Eigen::Quaterniond::Identity(), {30, 40, 0}) * motion : motion;
@@ -157,14 +179,17 @@ TEST(CheckOdometry, LeavesAllOtherMotionsAsTheyAre) {
   for (std::uint32_t k = 0; k + 1 < odometry.size(); ++k) {
     if (k >= checked.divergences[0].first && k < checked.divergences[0].last) continue;
     const Pose given = odometry.T_world_frame[k].inverse() * odometry.T_world_frame[k + 1],
-               kept = checked.trajectory.T_world_frame[k].inverse() * checked.trajectory.T_world_frame[k + 1];
+               kept = checked.trajectory.T_world_frame[k].inverse() *
+                      checked.trajectory.T_world_frame[k + 1];
     EXPECT_LT((given.inverse() * kept).translation.norm(), 1e-9) << k;
     EXPECT_LT(angle(given.inverse() * kept), 1e-9) << k;
   }
 }
 
 TEST(CheckOdometry, DoesNotDependOnWhereTheWorldIs) {
-  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle ? scaled(motion, 2) : motion; });
+  const auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle ? scaled(motion, 2) : motion;
+  });
   Trajectory elsewhere = odometry;
   const Pose far(exp_rotation({0, 0, 2}), {3000, -2000, 50});
   for (auto& pose : elsewhere.T_world_frame) pose = far * pose;
@@ -187,7 +212,8 @@ TEST(Divergence, IsNamedByWhatItLooksLike) {
   EXPECT_EQ(kind_of(d), "turns by 90 deg");
 }
 
-// ---- the step ---------------------------------------------------------------------------------------------------------------
+// ---- the step
+// ---------------------------------------------------------------------------------------------------------------
 
 StepRun checking(const std::vector<Frame>& frames, const Trajectory& odometry) {
   StepRun step(*plumb_module());
@@ -208,7 +234,8 @@ TEST(CheckOdometry, NamesFramesAndTimesInANote) {
   char times[2][32];
   std::snprintf(times[0], sizeof times[0], "frame %u (%.3f s)", d.first, 100 + 0.1 * d.first);
   std::snprintf(times[1], sizeof times[1], "frame %u (%.3f s)", d.last, 100 + 0.1 * d.last);
-  EXPECT_THAT(metrics.notes[0], testing::AllOf(testing::HasSubstr("jumps by 50"), testing::HasSubstr(std::string("from ") + times[0]),
+  EXPECT_THAT(metrics.notes[0], testing::AllOf(testing::HasSubstr("jumps by 50"),
+                                               testing::HasSubstr(std::string("from ") + times[0]),
                                                testing::HasSubstr(std::string("to ") + times[1])));
 }
 
@@ -227,7 +254,9 @@ TEST(CheckOdometry, MultipliesItsLengthsByTheScale) {
   for (auto& frame : frames)
     for (auto* axis : {&frame.cloud.x, &frame.cloud.y, &frame.cloud.z})
       for (float& v : *axis) v *= 0.1f;
-  auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) { return k >= middle ? scaled(motion, 2) : motion; });
+  auto odometry = changed(drive().truth, [](std::uint32_t k, const Pose& motion) {
+    return k >= middle ? scaled(motion, 2) : motion;
+  });
   for (auto& pose : odometry.T_world_frame) pose.translation *= 0.1;
   TestContext context;
   auto step = checking(frames, odometry);
@@ -236,7 +265,9 @@ TEST(CheckOdometry, MultipliesItsLengthsByTheScale) {
   const auto trajectory = step.run<Trajectory>("trajectory", context);
   double worst = 0;
   for (std::size_t k = 0; k < frames.size(); ++k)
-    worst = std::max(worst, (trajectory.T_world_frame[k].translation - 0.1 * drive().truth.T_world_frame[k].translation).norm());
+    worst = std::max(worst, (trajectory.T_world_frame[k].translation -
+                             0.1 * drive().truth.T_world_frame[k].translation)
+                                .norm());
   EXPECT_LT(worst, 0.1);
 }
 
@@ -246,7 +277,10 @@ TEST(CheckOdometry, HasNothingToCompareInOneFrameOrNone) {
     few.stamps.assign(n, 5);
     few.T_world_frame.resize(n);
     TestContext context;
-    const auto metrics = checking({drive().frames.begin(), drive().frames.begin() + static_cast<std::ptrdiff_t>(n)}, few).run<Metrics>("metrics", context);
+    const auto metrics =
+        checking({drive().frames.begin(), drive().frames.begin() + static_cast<std::ptrdiff_t>(n)},
+                 few)
+            .run<Metrics>("metrics", context);
     EXPECT_EQ(metrics.numbers[1].value, 0) << n;
   }
 }
@@ -254,7 +288,8 @@ TEST(CheckOdometry, HasNothingToCompareInOneFrameOrNone) {
 TEST(CheckOdometry, BelievesTheOdometryWhereScansAreEmpty) {
   std::vector<Frame> empty(drive().frames.size());
   TestContext context;
-  EXPECT_EQ(checking(empty, drive().truth).run<Metrics>("metrics", context).numbers.front().value, 0);
+  EXPECT_EQ(checking(empty, drive().truth).run<Metrics>("metrics", context).numbers.front().value,
+            0);
 }
 
 TEST(CheckOdometry, RefusesATrajectoryOfOtherFrames) {
@@ -265,7 +300,9 @@ TEST(CheckOdometry, RefusesATrajectoryOfOtherFrames) {
     checking(frames, drive().truth).run<Metrics>("metrics", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "there are 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
+    EXPECT_STREQ(
+        e.what(),
+        "there are 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
   }
 }
 

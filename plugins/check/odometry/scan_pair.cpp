@@ -22,7 +22,12 @@ Cloud thinned(const Cloud& scan, double voxel_size) {
 }  // namespace
 
 struct ScanTarget::State {
-  State(const Cloud& scan, const ScanOptions& of) : options(of), cloud(thinned(scan, of.voxel_size)), tree(cloud), normals(cloud.size(), Eigen::Vector3f::Zero()), known(cloud.size(), false) {}
+  State(const Cloud& scan, const ScanOptions& of)
+      : options(of),
+        cloud(thinned(scan, of.voxel_size)),
+        tree(cloud),
+        normals(cloud.size(), Eigen::Vector3f::Zero()),
+        known(cloud.size(), false) {}
 
   const Eigen::Vector3f& normal(std::uint32_t k) {
     if (known[k]) return normals[k];
@@ -51,7 +56,8 @@ struct ScanTarget::State {
   std::vector<bool> known;
 };
 
-ScanTarget::ScanTarget(const Cloud& scan, const ScanOptions& options) : state_(std::make_unique<State>(scan, options)) {}
+ScanTarget::ScanTarget(const Cloud& scan, const ScanOptions& options)
+    : state_(std::make_unique<State>(scan, options)) {}
 ScanTarget::~ScanTarget() = default;
 ScanTarget::ScanTarget(ScanTarget&&) noexcept = default;
 
@@ -69,7 +75,8 @@ double ScanTarget::misfit(const std::vector<Eigen::Vector3f>& source, const Pose
       continue;
     }
     const Eigen::Vector3f& normal = s.normal(nearest.index);
-    sum += normal.isZero() ? std::sqrt(nearest.squared_distance) : std::abs(normal.dot(at - s.cloud.point(nearest.index)));
+    sum += normal.isZero() ? std::sqrt(nearest.squared_distance)
+                           : std::abs(normal.dot(at - s.cloud.point(nearest.index)));
   }
   return sum / static_cast<double>(source.size());
 }
@@ -78,7 +85,8 @@ Pose ScanTarget::aligned(const std::vector<Eigen::Vector3f>& source, Pose T) {
   State& s = *state_;
   for (std::uint32_t k = 0; k < s.options.iterations; ++k) {
     // Begins with twice the distance: half of the iterations to find the way, half to settle.
-    const double max = 2 * k < s.options.iterations ? 2 * s.options.max_distance : s.options.max_distance;
+    const double max =
+        2 * k < s.options.iterations ? 2 * s.options.max_distance : s.options.max_distance;
     const Motion motion(T);
     const Eigen::Matrix3d R = T.matrix();
     Matrix6d h = 1e-3 * Matrix6d::Identity();

@@ -15,7 +15,8 @@ TEST(ScanTarget, FitsATrueMotionBestOfAll) {
     const Pose T = d.truth.T_world_frame[k].inverse() * d.truth.T_world_frame[k + 3];
     const double right = target.misfit(source, T);
     EXPECT_LT(right, 0.25);
-    for (const double factor : {0.0, 0.5, 2.0}) EXPECT_LT(right, 0.6 * target.misfit(source, scaled(T, factor))) << k << ", " << factor;
+    for (const double factor : {0.0, 0.5, 2.0})
+      EXPECT_LT(right, 0.6 * target.misfit(source, scaled(T, factor))) << k << ", " << factor;
   }
 }
 

@@ -37,40 +37,83 @@ struct CheckOdometry : WholeStep {
 
   static void describe(Declaration<CheckOdometry>& is) {
     is.name("check.odometry").version(1).source("ours");
-    is.summary("Finds where the odometry contradicts the scans (jumps, stands still, wrong scale or turn) and puts the scans' own motions there.");
+    is.summary(
+        "Finds where the odometry contradicts the scans (jumps, stands still, wrong scale or turn) "
+        "and puts the scans' own motions there.");
     is.input("frames", &In::frames, "the scans");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
     is.scale(&In::scale);
-    is.output("trajectory", &Out::trajectory, "the odometry; where it is contradicted, with the motions that scans registered to each other give");
-    is.output("metrics", &Out::metrics, "pairs compared and contradicted; a note for each stretch, with frames and times");
-    is.param("voxel_size", &Params::voxel_size).unit("m").range(0.01, 100).doc("edge length of the cells to which scans are thinned");
-    is.param("max_distance", &Params::max_distance).unit("m").range(0.01, 1000)
+    is.output("trajectory", &Out::trajectory,
+              "the odometry; where it is contradicted, with the motions that scans registered to "
+              "each other give");
+    is.output("metrics", &Out::metrics,
+              "pairs compared and contradicted; a note for each stretch, with frames and times");
+    is.param("voxel_size", &Params::voxel_size)
+        .unit("m")
+        .range(0.01, 100)
+        .doc("edge length of the cells to which scans are thinned");
+    is.param("max_distance", &Params::max_distance)
+        .unit("m")
+        .range(0.01, 1000)
         .doc("points without a nearer one in the other scan count as if they were so far off");
-    is.param("max_points", &Params::max_points).range(50, 1e6).doc("points of a scan that are asked, evenly chosen");
-    is.param("length", &Params::length).unit("m").range(0, 1e6).doc("path between two scans that are compared, at least; a frame counts for no less than three quarters of them move");
-    is.param("max_frames", &Params::max_frames).range(1, 1e6).doc("frames between them at most, however little they moved");
-    is.param("max_misfit_ratio", &Params::max_misfit_ratio).unit("%").range(0, 1)
-        .doc("the odometry is contradicted where another motion's misfit is at most this share of its own");
-    is.param("min_translation", &Params::min_translation).unit("m").range(0, 1000).doc("by which such a motion differs at least, or ...");
-    is.param("min_rotation", &Params::min_rotation).unit("rad").range(0, std::numbers::pi).doc("... by this angle");
-    is.param("single_factor", &Params::single_factor).range(1, 1000)
-        .doc("where only one pair in a row is contradicted, it must differ by so many times that: else the odometry is believed");
+    is.param("max_points", &Params::max_points)
+        .range(50, 1e6)
+        .doc("points of a scan that are asked, evenly chosen");
+    is.param("length", &Params::length)
+        .unit("m")
+        .range(0, 1e6)
+        .doc(
+            "path between two scans that are compared, at least; a frame counts for no less than "
+            "three quarters of them move");
+    is.param("max_frames", &Params::max_frames)
+        .range(1, 1e6)
+        .doc("frames between them at most, however little they moved");
+    is.param("max_misfit_ratio", &Params::max_misfit_ratio)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "the odometry is contradicted where another motion's misfit is at most this share of "
+            "its own");
+    is.param("min_translation", &Params::min_translation)
+        .unit("m")
+        .range(0, 1000)
+        .doc("by which such a motion differs at least, or ...");
+    is.param("min_rotation", &Params::min_rotation)
+        .unit("rad")
+        .range(0, std::numbers::pi)
+        .doc("... by this angle");
+    is.param("single_factor", &Params::single_factor)
+        .range(1, 1000)
+        .doc(
+            "where only one pair in a row is contradicted, it must differ by so many times that: "
+            "else the odometry is believed");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     if (in.frames.size() != in.trajectory->size())
-      throw Error("there are " + std::to_string(in.frames.size()) + " frames but " + std::to_string(in.trajectory->size()) +
+      throw Error("there are " + std::to_string(in.frames.size()) + " frames but " +
+                  std::to_string(in.trajectory->size()) +
                   " poses in the trajectory; wire the trajectory of these frames");
-    const DivergenceOptions options{{params.voxel_size, params.max_distance, params.max_points}, params.length, params.max_frames,
-                                    params.max_misfit_ratio, params.min_translation, params.min_rotation, params.single_factor};
-    auto checked = check_odometry(*in.trajectory, [&](std::size_t k) { return in.frames.open(k).shared(); }, options, context);
+    const DivergenceOptions options{{params.voxel_size, params.max_distance, params.max_points},
+                                    params.length,
+                                    params.max_frames,
+                                    params.max_misfit_ratio,
+                                    params.min_translation,
+                                    params.min_rotation,
+                                    params.single_factor};
+    auto checked = check_odometry(
+        *in.trajectory, [&](std::size_t k) { return in.frames.open(k).shared(); }, options,
+        context);
     Out out;
-    out.metrics.add("divergences", static_cast<double>(checked.divergences.size()), "").add("pairs_compared", checked.compared, "");
+    out.metrics.add("divergences", static_cast<double>(checked.divergences.size()), "")
+        .add("pairs_compared", checked.compared, "");
     for (const Divergence& d : checked.divergences) {
       const auto& stamps = in.trajectory->stamps;
-      out.metrics.notes.push_back("the odometry " + kind_of(d) + " against the scans from frame " + std::to_string(d.first) + " (" +
-                                   seconds(stamps[d.first]) + " s) to frame " + std::to_string(d.last) + " (" + seconds(stamps[d.last]) +
-                                   " s); that stretch takes its motion from the scans");
+      out.metrics.notes.push_back("the odometry " + kind_of(d) + " against the scans from frame " +
+                                  std::to_string(d.first) + " (" + seconds(stamps[d.first]) +
+                                  " s) to frame " + std::to_string(d.last) + " (" +
+                                  seconds(stamps[d.last]) +
+                                  " s); that stretch takes its motion from the scans");
     }
     out.trajectory = std::move(checked.trajectory);
     return out;

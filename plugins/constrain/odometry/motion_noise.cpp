@@ -17,8 +17,10 @@ double median(std::vector<double> values) {
 
 Vector6d expected_sigma(const Pose& motion, const MotionNoise& noise) {
   const double path = motion.translation.norm();
-  const double translation = std::hypot(noise.min_translation_sigma, noise.translation_per_metre * path);
-  const double rotation = std::sqrt(std::pow(noise.min_rotation_sigma, 2) + std::pow(noise.rotation_per_metre * path, 2) +
+  const double translation =
+      std::hypot(noise.min_translation_sigma, noise.translation_per_metre * path);
+  const double rotation = std::sqrt(std::pow(noise.min_rotation_sigma, 2) +
+                                    std::pow(noise.rotation_per_metre * path, 2) +
                                     std::pow(noise.rotation_per_turn * angle(motion), 2));
   Vector6d sigma;
   sigma << translation, translation, translation, rotation, rotation, rotation;
@@ -34,7 +36,8 @@ Vector6d difference(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered, const MotionNoise& noise, double max_factor, double outlier) {
+OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
+                             const MotionNoise& noise, double max_factor, double outlier) {
   OdometryNoise result;
   const std::size_t n = odometry.size() > 0 ? odometry.size() - 1 : 0;
   std::vector<Vector6d> differences;
@@ -44,10 +47,12 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered, con
     if (registered) differences.push_back(difference(motion, registered->relative(k, k + 1)));
   }
   if (!registered || n == 0) return result;
-  constexpr double normal = 1.4826;  // of a normal distribution: deviation / median of absolute values
+  constexpr double normal =
+      1.4826;  // of a normal distribution: deviation / median of absolute values
   for (int axis = 0; axis < 6; ++axis) {
     std::vector<double> ratios;
-    for (std::size_t k = 0; k < n; ++k) ratios.push_back(std::abs(differences[k][axis]) / result.motions[k].sigma[axis]);
+    for (std::size_t k = 0; k < n; ++k)
+      ratios.push_back(std::abs(differences[k][axis]) / result.motions[k].sigma[axis]);
     result.factor[axis] = std::clamp(normal * median(ratios), 1 / max_factor, max_factor);
   }
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -67,7 +72,8 @@ Relations relations_from(const std::vector<Motion6>& motions) {
   Relations relations;
   for (std::uint32_t k = 0; k < motions.size(); ++k) {
     const Matrix6d information = motions[k].sigma.array().square().inverse().matrix().asDiagonal();
-    relations.relative.push_back(relation_of({k, k + 1, EdgeKind::sequential, 1, 0}, motions[k].T_k_next, information));
+    relations.relative.push_back(
+        relation_of({k, k + 1, EdgeKind::sequential, 1, 0}, motions[k].T_k_next, information));
   }
   return relations;
 }

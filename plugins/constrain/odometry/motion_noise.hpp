@@ -8,32 +8,39 @@
 
 namespace plumb {
 
-/// Standard deviations of a motion: what it has at rest, and what grows with the path and the turn. Errors of a step are taken as
-/// proportional to the step, not to its root: the errors of lidar odometries are mostly slow (a tilted sensor, a wrong scale).
+/// Standard deviations of a motion: what it has at rest, and what grows with the path and the turn.
+/// Errors of a step are taken as proportional to the step, not to its root: the errors of lidar
+/// odometries are mostly slow (a tilted sensor, a wrong scale).
 struct MotionNoise {
-  double translation_per_metre = 0.03;    ///< [m/m]
-  double rotation_per_metre = 0.0017;     ///< [rad/m]
-  double rotation_per_turn = 0.02;        ///< [rad/rad]
-  double min_translation_sigma = 0.02;    ///< [m]
-  double min_rotation_sigma = 0.001;      ///< [rad]
+  double translation_per_metre = 0.03;  ///< [m/m]
+  double rotation_per_metre = 0.0017;   ///< [rad/m]
+  double rotation_per_turn = 0.02;      ///< [rad/rad]
+  double min_translation_sigma = 0.02;  ///< [m]
+  double min_rotation_sigma = 0.001;    ///< [rad]
 };
 
-/// The motion from segment k to k + 1 with the standard deviations of x, y, z [m] and of the rotation vector [rad], all in k + 1's axes.
+/// The motion from segment k to k + 1 with the standard deviations of x, y, z [m] and of the
+/// rotation vector [rad], all in k + 1's axes.
 struct Motion6 {
   Pose T_k_next;
   Vector6d sigma = Vector6d::Zero();
 };
 
 struct OdometryNoise {
-  std::vector<Motion6> motions;              ///< one less than there are poses
-  Vector6d factor = Vector6d::Ones();        ///< what the expected deviations were multiplied by, axis by axis
-  std::vector<std::uint32_t> outliers;       ///< k: the motion from k to k + 1 contradicts the registrations
+  std::vector<Motion6> motions;  ///< one less than there are poses
+  Vector6d factor =
+      Vector6d::Ones();  ///< what the expected deviations were multiplied by, axis by axis
+  std::vector<std::uint32_t>
+      outliers;  ///< k: the motion from k to k + 1 contradicts the registrations
 };
 
-/// Deviations as `noise` expects them. With `registered` (where registrations of the same segments have put them), the expected ones are scaled axis by
-/// axis to what the odometry's motions differ from the registered ones by (median, as for normal errors; at most `max_factor` up or down), and motions that
-/// differ by more than `outlier` such deviations get so wide that they hold nothing but what the difference allows.
-OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered, const MotionNoise& noise, double max_factor, double outlier);
+/// Deviations as `noise` expects them. With `registered` (where registrations of the same segments
+/// have put them), the expected ones are scaled axis by axis to what the odometry's motions differ
+/// from the registered ones by (median, as for normal errors; at most `max_factor` up or down), and
+/// motions that differ by more than `outlier` such deviations get so wide that they hold nothing
+/// but what the difference allows.
+OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
+                             const MotionNoise& noise, double max_factor, double outlier);
 
 /// Relations of a pose graph from these.
 Relations relations_from(const std::vector<Motion6>& motions);

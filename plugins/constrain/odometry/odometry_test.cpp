@@ -22,7 +22,8 @@ Eigen::Vector3d gauss3(std::mt19937& random, const Eigen::Vector3d& sigma) {
 /// The poses that these motions lead to, one after another.
 Poses chain(const std::vector<Pose>& motions) {
   Poses poses{{Pose(exp_rotation({0.1, 0.2, 1}), {300, -200, 10})}};
-  for (const Pose& motion : motions) poses.T_world_segment.push_back(poses.T_world_segment.back() * motion);
+  for (const Pose& motion : motions)
+    poses.T_world_segment.push_back(poses.T_world_segment.back() * motion);
   return poses;
 }
 /// A drive of n motions of 8 to 12 m with turns of up to 0.3 rad.
@@ -35,8 +36,10 @@ std::vector<Pose> drive(std::size_t n, std::uint64_t seed = 1) {
   }
   return motions;
 }
-/// The drive with errors in each motion, in the axes of its end, of `factor` times the deviations expected.
-std::vector<Pose> with_errors(const std::vector<Pose>& motions, const Vector6d& factor, std::uint32_t seed) {
+/// The drive with errors in each motion, in the axes of its end, of `factor` times the deviations
+/// expected.
+std::vector<Pose> with_errors(const std::vector<Pose>& motions, const Vector6d& factor,
+                              std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto expected = odometry_noise(chain(motions), nullptr, {}, 10, 6).motions;
   std::vector<Pose> result;
@@ -50,7 +53,8 @@ std::vector<Pose> with_errors(const std::vector<Pose>& motions, const Vector6d& 
 const MotionNoise usual;
 
 TEST(OdometryNoise, GrowsWithThePathAndTheTurnFromWhatItIsAtRest) {
-  const Pose rest, straight(Eigen::Quaterniond::Identity(), {0, 10, 0}), turn(exp_rotation({0, 0, 1.5}), {0, 0, 0});
+  const Pose rest, straight(Eigen::Quaterniond::Identity(), {0, 10, 0}),
+      turn(exp_rotation({0, 0, 1.5}), {0, 0, 0});
   const auto noise = odometry_noise(chain({rest, straight, turn}), nullptr, usual, 10, 6);
   ASSERT_EQ(noise.motions.size(), 3u);
   EXPECT_NEAR(noise.motions[0].sigma[0], 0.02, 1e-9);
@@ -69,7 +73,8 @@ TEST(OdometryNoise, FindsHowGoodTheOdometryIsAxisByAxis) {
   const auto truth = drive(2000);
   const Poses odometry = chain(with_errors(truth, planted, 7)), registered = chain(truth);
   const auto noise = odometry_noise(odometry, &registered, usual, 10, 6);
-  for (int axis = 0; axis < 6; ++axis) EXPECT_NEAR(noise.factor[axis] / planted[axis], 1, 0.1) << axis;
+  for (int axis = 0; axis < 6; ++axis)
+    EXPECT_NEAR(noise.factor[axis] / planted[axis], 1, 0.1) << axis;
   const auto expected = odometry_noise(odometry, nullptr, usual, 10, 6).motions;
   EXPECT_LT((noise.motions[5].sigma - noise.factor.cwiseProduct(expected[5].sigma)).norm(), 1e-12);
 }
@@ -83,16 +88,20 @@ TEST(OdometryNoise, SeesAWrongScaleAlongTheMotionWhateverTheHeading) {
   const Poses registered = chain(motions);
   const auto sigma = odometry_noise(chain(longer), &registered, usual, 10, 6).motions[30].sigma;
   EXPECT_GT(sigma[0], 0.4);
-  EXPECT_LT(sigma[1], 0.3) << "0.5 m forward stand by a tenth of it to the side, in the turned axes of the motion's end";
+  EXPECT_LT(sigma[1], 0.3)
+      << "0.5 m forward stand by a tenth of it to the side, in the turned axes of the motion's end";
   EXPECT_LT(sigma[2], 0.1);
 }
 
 TEST(OdometryNoise, IsScaledByNoMoreThanTheMostEitherWay) {
   const auto truth = drive(100);
   const Poses registered = chain(truth);
-  EXPECT_LT((odometry_noise(registered, &registered, usual, 4, 6).factor - Vector6d::Constant(0.25)).norm(), 1e-12);
+  EXPECT_LT((odometry_noise(registered, &registered, usual, 4, 6).factor - Vector6d::Constant(0.25))
+                .norm(),
+            1e-12);
   const Poses bad = chain(with_errors(truth, Vector6d::Constant(50), 2));
-  EXPECT_LT((odometry_noise(bad, &registered, usual, 4, 6).factor - Vector6d::Constant(4)).norm(), 1e-12);
+  EXPECT_LT((odometry_noise(bad, &registered, usual, 4, 6).factor - Vector6d::Constant(4)).norm(),
+            1e-12);
 }
 
 TEST(OdometryNoise, HoldsAMotionThatContradictsTheRegistrationsNoFirmerThanTheDifference) {
@@ -105,7 +114,9 @@ TEST(OdometryNoise, HoldsAMotionThatContradictsTheRegistrationsNoFirmerThanTheDi
   const auto noise = odometry_noise(chain(motions), &registered, usual, 10, 6);
   EXPECT_THAT(noise.outliers, ElementsAre(20u));
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(noise.motions[20].sigma[axis], 30, 5);
-  for (const std::size_t other : {19u, 21u}) EXPECT_LT((noise.motions[other].sigma.array() / clean.motions[other].sigma.array()).maxCoeff(), 1.2);
+  for (const std::size_t other : {19u, 21u})
+    EXPECT_LT((noise.motions[other].sigma.array() / clean.motions[other].sigma.array()).maxCoeff(),
+              1.2);
 }
 
 TEST(OdometryNoise, OfFewerThanTwoPosesIsNone) {
@@ -125,7 +136,8 @@ TEST(OdometryRelations, CountOneForOneStandardDeviationAlongEachAxis) {
   EXPECT_EQ(r.j, 3u);
   for (int axis = 0; axis < 6; ++axis) {
     const Vector6d off = noise.motions[2].sigma[axis] * Vector6d::Unit(axis);
-    const Pose moved = odometry.T_world_segment[3] * Pose(exp_rotation(off.tail<3>()), off.head<3>());
+    const Pose moved =
+        odometry.T_world_segment[3] * Pose(exp_rotation(off.tail<3>()), off.head<3>());
     const Pose d = r.T_i_j.inverse() * odometry.T_world_segment[2].inverse() * moved;
     Vector6d e;  // g2o's error
     e << d.translation, d.rotation.vec();
@@ -133,9 +145,11 @@ TEST(OdometryRelations, CountOneForOneStandardDeviationAlongEachAxis) {
   }
 }
 
-// ---- the step ---------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// ---------------------------------------------------------------------------------------------------------------------
 
-/// Four segments of three frames, 1 m apart along x, cut from another trajectory: only first and end count.
+/// Four segments of three frames, 1 m apart along x, cut from another trajectory: only first and
+/// end count.
 std::vector<Range> ranges() {
   std::vector<Range> result(4);
   for (std::uint32_t k = 0; k < 4; ++k) result[k].first = 3 * k, result[k].end = 3 * k + 3;
@@ -145,13 +159,15 @@ Trajectory odometry() {
   Trajectory trajectory;
   for (int k = 0; k < 12; ++k) {
     trajectory.stamps.push_back(0.1 * k);
-    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
+    trajectory.T_world_frame.push_back(
+        {Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
   }
   return trajectory;
 }
 Poses middles() {
   Poses poses;
-  for (const Range& range : ranges()) poses.T_world_segment.push_back(odometry().T_world_frame[range.first + 1]);
+  for (const Range& range : ranges())
+    poses.T_world_segment.push_back(odometry().T_world_frame[range.first + 1]);
   return poses;
 }
 StepRun wired() {
@@ -188,12 +204,16 @@ TEST(ConstrainOdometry, JoinsTheMiddleFramesOfEachSegmentAndTheNext) {
   const auto metrics = wired().run<Metrics>("metrics", context);
   std::vector<std::string> names;
   for (const auto& number : metrics.numbers) names.push_back(number.name + "[" + number.unit + "]");
-  EXPECT_THAT(names, ElementsAre("sigma_x[m]", "sigma_y[m]", "sigma_z[m]", "sigma_roll[rad]", "sigma_pitch[rad]", "sigma_yaw[rad]", "outliers[]"));
+  EXPECT_THAT(names, ElementsAre("sigma_x[m]", "sigma_y[m]", "sigma_z[m]", "sigma_roll[rad]",
+                                 "sigma_pitch[rad]", "sigma_yaw[rad]", "outliers[]"));
 }
 
 TEST(ConstrainOdometry, TakesTheParametersOfTheNoise) {
   auto step = wired();
-  step.set("translation_per_metre", 0.1).set("min_translation_sigma", 1e-6).set("rotation_per_metre", 1e-8).set("min_rotation_sigma", 0.2);
+  step.set("translation_per_metre", 0.1)
+      .set("min_translation_sigma", 1e-6)
+      .set("rotation_per_metre", 1e-8)
+      .set("min_rotation_sigma", 0.2);
   const auto [x, yaw] = sigmas(step);
   EXPECT_NEAR(x, 0.3, 1e-9);
   EXPECT_NEAR(yaw, 0.2, 1e-9);
@@ -206,18 +226,21 @@ TEST(ConstrainOdometry, CountsMotionsThatContradictTheRegistrations) {
   const auto metrics = wired().with("registered", registered).run<Metrics>("metrics", context);
   EXPECT_EQ(metrics.numbers[6].value, 1);
   EXPECT_EQ(context.counts["motions of the odometry that contradict the registrations"], 1u);
-  EXPECT_NEAR(sigmas(wired().with("registered", middles())).first, std::hypot(0.02, 0.09) / 10, 1e-9);
+  EXPECT_NEAR(sigmas(wired().with("registered", middles())).first, std::hypot(0.02, 0.09) / 10,
+              1e-9);
 }
 
 TEST(ConstrainOdometry, RefusesPosesAndRangesOfOtherSegments) {
   TestContext context;
   Poses registered = middles();
   registered.T_world_segment.pop_back();
-  const auto other_poses = refusal([&] { wired().with("registered", registered).run<Relations>("relations", context); });
+  const auto other_poses =
+      refusal([&] { wired().with("registered", registered).run<Relations>("relations", context); });
   EXPECT_THAT(other_poses, HasSubstr("4 segments and 3 registered poses"));
   auto far = ranges();
   far[3].end = 13;
-  const auto other_frames = refusal([&] { wired().each("ranges", far).run<Relations>("relations", context); });
+  const auto other_frames =
+      refusal([&] { wired().each("ranges", far).run<Relations>("relations", context); });
   EXPECT_THAT(other_frames, HasSubstr("segment 3 has frames up to 13, the trajectory only 12"));
 }
 
@@ -237,7 +260,10 @@ TEST(ConstrainOdometry, WithAScaleMultipliesLengthsAndDividesAnglesByLength) {
 TEST(ConstrainOdometry, WithAScaleLeavesRatiosAndAnglesAlone) {
   const auto step = [](double scale) {  // lengths and angles by length without weight
     auto s = wired();
-    s.set("rotation_per_metre", 1e-8).set("min_translation_sigma", 1e-6).set("translation_per_metre", 0.5).set("min_rotation_sigma", 0.1);
+    s.set("rotation_per_metre", 1e-8)
+        .set("min_translation_sigma", 1e-6)
+        .set("translation_per_metre", 0.5)
+        .set("min_rotation_sigma", 0.1);
     return sigmas(s.with("scale", Metrics().add("scale", scale, "")));
   };
   EXPECT_NEAR(step(0.25).first, 1.5, 1e-9);
@@ -250,8 +276,11 @@ TEST(ConstrainOdometry, RefusesAScaleWithoutAPositiveNumber) {
     return refusal([&] { wired().with("scale", scale).run<Relations>("relations", context); });
   };
   EXPECT_THAT(said({}), HasSubstr("'scale' must have a positive number"));
-  for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THAT(said(Metrics().add("scale", value, "")), HasSubstr("'scale' must have a positive number")) << value;
+  for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THAT(said(Metrics().add("scale", value, "")),
+                HasSubstr("'scale' must have a positive number"))
+        << value;
   EXPECT_EQ(said(Metrics().add("scale", 0.3, "")), "");
 }
 

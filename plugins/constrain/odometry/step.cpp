@@ -26,34 +26,58 @@ struct ConstrainOdometry : WholeStep {
     is.name("constrain.odometry").version(1).source("ours");
     is.summary("Makes constraints of the odometry's motions, as firm as the odometry is good.");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
-    is.input("ranges", &In::ranges, "the frames of each segment, cut from this or any other trajectory of the same frames");
+    is.input(
+        "ranges", &In::ranges,
+        "the frames of each segment, cut from this or any other trajectory of the same frames");
     is.optional_input("registered", &In::registered,
-                      "where registrations of neighbouring segments put the same segments: tells how good the odometry is, axis by axis");
+                      "where registrations of neighbouring segments put the same segments: tells "
+                      "how good the odometry is, axis by axis");
     is.scale(&In::scale);
-    is.output("relations", &Out::relations, "the motion from each segment to the next, with its information");
-    is.output("metrics", &Out::metrics, "median deviations that were used, and how many motions contradict the registrations");
-    is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre)).unit("%").range(1e-6, 10)
+    is.output("relations", &Out::relations,
+              "the motion from each segment to the next, with its information");
+    is.output(
+        "metrics", &Out::metrics,
+        "median deviations that were used, and how many motions contradict the registrations");
+    is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre))
+        .unit("%")
+        .range(1e-6, 10)
         .doc("standard deviation of a motion's translation, of its length");
-    is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre)).unit("rad/m").range(1e-8, 10)
+    is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre))
+        .unit("rad/m")
+        .range(1e-8, 10)
         .doc("standard deviation of a motion's rotation for each metre of it");
-    is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn)).unit("%").range(0, 10)
+    is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn))
+        .unit("%")
+        .range(0, 10)
         .doc("the same, of its rotation");
-    is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma)).unit("m").range(1e-6, 1e3)
+    is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma))
+        .unit("m")
+        .range(1e-6, 1e3)
         .doc("standard deviation of a motion's translation at rest");
-    is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma)).unit("rad").range(1e-8, 10)
+    is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma))
+        .unit("rad")
+        .range(1e-8, 10)
         .doc("standard deviation of a motion's rotation at rest");
-    is.param("max_factor", &Params::max_factor).range(1, 1e6)
-        .doc("with 'registered': the deviations are scaled to the differences seen, up or down by at most this");
-    is.param("outlier", &Params::outlier).range(1, 1e6)
-        .doc("with 'registered': a motion that differs by more standard deviations is held no firmer than that difference");
+    is.param("max_factor", &Params::max_factor)
+        .range(1, 1e6)
+        .doc(
+            "with 'registered': the deviations are scaled to the differences seen, up or down by "
+            "at most this");
+    is.param("outlier", &Params::outlier)
+        .range(1, 1e6)
+        .doc(
+            "with 'registered': a motion that differs by more standard deviations is held no "
+            "firmer than that difference");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Poses odometry = middle_poses(in);
     if (in.registered && in.registered->size() != odometry.size())
-      throw Error("there are " + std::to_string(odometry.size()) + " segments and " + std::to_string(in.registered->size()) +
+      throw Error("there are " + std::to_string(odometry.size()) + " segments and " +
+                  std::to_string(in.registered->size()) +
                   " registered poses: wire ranges and poses of the same segments");
-    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params, params.max_factor, params.outlier);
+    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params,
+                                      params.max_factor, params.outlier);
     Out out;
     out.relations = relations_from(noise.motions);
     const char* axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -61,10 +85,12 @@ struct ConstrainOdometry : WholeStep {
       std::vector<double> sigmas;
       for (const auto& motion : noise.motions) sigmas.push_back(motion.sigma[axis]);
       std::ranges::sort(sigmas);
-      out.metrics.add(std::string("sigma_") + axes[axis], sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
+      out.metrics.add(std::string("sigma_") + axes[axis],
+                      sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
     }
     out.metrics.add("outliers", static_cast<double>(noise.outliers.size()), "");
-    context.count("motions of the odometry that contradict the registrations", noise.outliers.size());
+    context.count("motions of the odometry that contradict the registrations",
+                  noise.outliers.size());
     return out;
   }
 
@@ -75,9 +101,11 @@ struct ConstrainOdometry : WholeStep {
     for (std::size_t k = 0; k < in.ranges.size(); ++k) {
       const auto range = in.ranges.open(k);
       if (range->end > in.trajectory->size())
-        throw Error("segment " + std::to_string(k) + " has frames up to " + std::to_string(range->end) + ", the trajectory only " +
+        throw Error("segment " + std::to_string(k) + " has frames up to " +
+                    std::to_string(range->end) + ", the trajectory only " +
                     std::to_string(in.trajectory->size()) + ": wire ranges of the same frames");
-      poses.T_world_segment.push_back(in.trajectory->T_world_frame[range->first + range->size() / 2]);
+      poses.T_world_segment.push_back(
+          in.trajectory->T_world_frame[range->first + range->size() / 2]);
     }
     return poses;
   }

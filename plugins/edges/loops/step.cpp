@@ -89,8 +89,7 @@ struct LoopEdges : WholeStep {
     };
     Loops loops = find_loops(places, alike, params);
     if (loops.edges.list.empty())
-      context.warn("no loop found: no two segments with " +
-                   short_number(loops.least_path_gap) +
+      context.warn("no loop found: no two segments with " + short_number(loops.least_path_gap) +
                    " m of path between them lie near each other and look alike");
     context.count("loop edges", loops.edges.size());
     return {std::move(loops.edges)};

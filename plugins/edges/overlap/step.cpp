@@ -44,7 +44,8 @@ struct OverlapEdges : WholeStep {
     const std::size_t count = in.segments.size();
     if (count < 2)
       throw Error("there is " + std::to_string(count) +
-                  " segment, so there is nothing to register: cut shorter segments (segment.by_count: frames, "
+                  " segment, so there is nothing to register: cut shorter segments "
+                  "(segment.by_count: frames, "
                   "segment.by_distance: length)");
     if (in.poses->size() != count)
       throw Error("there are " + std::to_string(count) + " segments and " +

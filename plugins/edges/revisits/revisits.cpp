@@ -36,17 +36,21 @@ Edges revisits(const Poses& poses, const RevisitOptions& options) {
         for (long z = cz - 1; z <= cz + 1; ++z)
           if (const auto at = cells.find({x, y, z}); at != cells.end())
             for (const auto i : at->second)
-              if (way[j] - way[i] >= options.gap && (place(i) - place(j)).norm() <= options.distance) near.push_back(i);
+              if (way[j] - way[i] >= options.gap &&
+                  (place(i) - place(j)).norm() <= options.distance)
+                near.push_back(i);
     std::sort(near.begin(), near.end());
     for (std::size_t first = 0; first < near.size();) {
       std::size_t end = first + 1;
       while (end < near.size() && near[end] == near[end - 1] + 1) ++end;
-      const auto nearest = *std::min_element(near.begin() + static_cast<std::ptrdiff_t>(first),
-                                             near.begin() + static_cast<std::ptrdiff_t>(end), [&](auto a, auto b) {
-                                               return (place(a) - place(j)).norm() < (place(b) - place(j)).norm();
-                                             });
+      const auto nearest =
+          *std::min_element(near.begin() + static_cast<std::ptrdiff_t>(first),
+                            near.begin() + static_cast<std::ptrdiff_t>(end), [&](auto a, auto b) {
+                              return (place(a) - place(j)).norm() < (place(b) - place(j)).norm();
+                            });
       const double distance = (place(nearest) - place(j)).norm();
-      edges.list.push_back({nearest, j, EdgeKind::neighbour, static_cast<float>(1 - distance / options.distance),
+      edges.list.push_back({nearest, j, EdgeKind::neighbour,
+                            static_cast<float>(1 - distance / options.distance),
                             static_cast<float>(distance)});
       first = end;
     }

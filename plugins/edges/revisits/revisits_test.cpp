@@ -11,7 +11,8 @@ namespace {
 
 Poses along(const std::vector<Eigen::Vector3d>& places) {
   Poses poses;
-  for (const auto& place : places) poses.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), place);
+  for (const auto& place : places)
+    poses.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), place);
   return poses;
 }
 
@@ -29,7 +30,8 @@ TEST(Revisits, JoinEachSegmentOfTheWayBackWithItsNeighbourOnTheWayThere) {
   EXPECT_EQ(edges.segments, 40u);
   for (const auto& edge : edges.list) {
     EXPECT_EQ(edge.kind, EdgeKind::neighbour);
-    if (edge.j - edge.i < 8) continue;  // next to where it turned round the nearest is too near along the way
+    if (edge.j - edge.i < 8)
+      continue;  // next to where it turned round the nearest is too near along the way
     EXPECT_EQ(edge.i + edge.j, 39u);
     EXPECT_FLOAT_EQ(edge.centroid_distance, 0.5f);
   }
@@ -48,7 +50,8 @@ TEST(Revisits, GiveOneEdgeForEachVisit) {
   for (const auto& edge : edges.list) ++visits[edge.j];
   EXPECT_EQ(visits[139], 3);
   for (const auto& edge : edges.list) {
-    if (edge.i > 0 && edge.j % 40 > 5 && edge.j - edge.i > 10) EXPECT_EQ((edge.j - edge.i) % 40, 0u) << edge.i << ' ' << edge.j;
+    if (edge.i > 0 && edge.j % 40 > 5 && edge.j - edge.i > 10)
+      EXPECT_EQ((edge.j - edge.i) % 40, 0u) << edge.i << ' ' << edge.j;
   }
 }
 
@@ -56,12 +59,14 @@ TEST(Revisits, AreWhatComparingEachPairGives) {
   std::mt19937 random(7);
   std::normal_distribution<double> step(0, 0.8);
   std::vector<Eigen::Vector3d> places{{0, 0, 0}};
-  for (int k = 0; k < 300; ++k) places.push_back(places.back() + Eigen::Vector3d(step(random), step(random), 0));
+  for (int k = 0; k < 300; ++k)
+    places.push_back(places.back() + Eigen::Vector3d(step(random), step(random), 0));
   const Poses poses = along(places);
   const RevisitOptions options{1.5, 4, 0.3};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
   std::vector<double> way(places.size(), 0);
-  for (std::size_t k = 1; k < places.size(); ++k) way[k] = way[k - 1] + (places[k] - places[k - 1]).norm();
+  for (std::size_t k = 1; k < places.size(); ++k)
+    way[k] = way[k - 1] + (places[k] - places[k - 1]).norm();
   for (std::uint32_t j = 0; j < places.size(); ++j) {
     int nearest = -1;
     const auto close = [&] {
@@ -80,7 +85,8 @@ TEST(Revisits, AreWhatComparingEachPairGives) {
   std::sort(expected.begin(), expected.end());
   const Edges edges = revisits(poses, options);
   ASSERT_EQ(edges.size(), expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(std::pair(edges.list[k].i, edges.list[k].j), expected[k]);
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_EQ(std::pair(edges.list[k].i, edges.list[k].j), expected[k]);
 }
 
 TEST(RevisitsStep, HasNothingToJoinOnAStraightWay) {

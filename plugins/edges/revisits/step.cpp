@@ -18,9 +18,18 @@ struct RevisitEdges : WholeStep {
     is.summary("Joins every segment with the nearest one of each earlier visit to its place.");
     is.input("poses", &In::poses, "where the segments are at present");
     is.output("edges", &Out::edges, "neighbours; the score falls from 1 to 0 with the distance");
-    is.param("distance", &Params::distance).unit("m").range(0.01, 1000).doc("the farthest that two segments may lie apart");
-    is.param("gap", &Params::gap).unit("m").range(0, 1e5).doc("the least way that must lie between them");
-    is.param("turn_length", &Params::turn_length).unit("m").range(0, 100).doc("a turn of one rad counts as so much way");
+    is.param("distance", &Params::distance)
+        .unit("m")
+        .range(0.01, 1000)
+        .doc("the farthest that two segments may lie apart");
+    is.param("gap", &Params::gap)
+        .unit("m")
+        .range(0, 1e5)
+        .doc("the least way that must lie between them");
+    is.param("turn_length", &Params::turn_length)
+        .unit("m")
+        .range(0, 100)
+        .doc("a turn of one rad counts as so much way");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -20,7 +20,8 @@ std::vector<Eigen::Vector3d> in_a_line(std::size_t n) {
   return positions;
 }
 Edge edge(std::uint32_t i, std::uint32_t j, double score) {
-  return {i, j, j == i + 1 ? EdgeKind::sequential : EdgeKind::neighbour, static_cast<float>(score), 0};
+  return {i, j, j == i + 1 ? EdgeKind::sequential : EdgeKind::neighbour, static_cast<float>(score),
+          0};
 }
 std::vector<Pair> pairs_of(const Edges& edges) {
   std::vector<Pair> pairs;
@@ -31,7 +32,8 @@ std::vector<Pair> pairs_of(const Edges& edges) {
 Edges all_within(std::uint32_t segments, std::uint32_t reach) {
   Edges edges{segments, {}};
   for (std::uint32_t i = 0; i < segments; ++i)
-    for (std::uint32_t j = i + 1; j <= std::min(segments - 1, i + reach); ++j) edges.list.push_back(edge(i, j, 0.5));
+    for (std::uint32_t j = i + 1; j <= std::min(segments - 1, i + reach); ++j)
+      edges.list.push_back(edge(i, j, 0.5));
   return edges;
 }
 /// A share of all pairs, with scores that all differ.
@@ -40,12 +42,14 @@ Edges random_edges(std::uint32_t segments, double share, std::uint64_t seed) {
   Edges edges{segments, {}};
   for (std::uint32_t i = 0; i < segments; ++i)
     for (std::uint32_t j = i + 1; j < segments; ++j)
-      if (j == i + 1 || random.uniform() < share) edges.list.push_back(edge(i, j, random.uniform()));
+      if (j == i + 1 || random.uniform() < share)
+        edges.list.push_back(edge(i, j, random.uniform()));
   return edges;
 }
 Poses poses_at(const std::vector<Eigen::Vector3d>& positions) {
   Poses poses;
-  for (const auto& position : positions) poses.T_world_segment.push_back({Eigen::Quaterniond::Identity(), position});
+  for (const auto& position : positions)
+    poses.T_world_segment.push_back({Eigen::Quaterniond::Identity(), position});
   return poses;
 }
 
@@ -88,7 +92,8 @@ std::set<Pair> asked_by(std::uint32_t s, const Edges& edges, const SelectOptions
   }
   std::ranges::sort(visits);
   for (std::size_t v = 0; v < visits.size() && v < options.max_visits; ++v)
-    for (std::size_t k = 0; k < visits[v].size() && k < options.per_visit; ++k) ask(visits[v][k].second);
+    for (std::size_t k = 0; k < visits[v].size() && k < options.per_visit; ++k)
+      ask(visits[v][k].second);
   return asked;
 }
 
@@ -103,28 +108,35 @@ TEST(SelectEdges, KeepsThoseToFibonaccisNumbersAlongAPath) {
 }
 
 TEST(SelectEdges, TakesTheNextPartnerBeyondWhereOneIsMissing) {
-  Edges edges{10, {edge(0, 1, 1), edge(0, 3, 1), edge(0, 4, 1), edge(0, 6, 1), edge(0, 8, 1), edge(0, 9, 1)}};
+  Edges edges{
+      10,
+      {edge(0, 1, 1), edge(0, 3, 1), edge(0, 4, 1), edge(0, 6, 1), edge(0, 8, 1), edge(0, 9, 1)}};
   SelectOptions options;
   options.max_visits = 0;
-  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(10), options)), ElementsAre(Pair(0, 1), Pair(0, 3), Pair(0, 6), Pair(0, 8)));
+  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(10), options)),
+              ElementsAre(Pair(0, 1), Pair(0, 3), Pair(0, 6), Pair(0, 8)));
   options.max_along = 1;
-  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(10), options)), ElementsAre(Pair(0, 1), Pair(0, 3)));
+  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(10), options)),
+              ElementsAre(Pair(0, 1), Pair(0, 3)));
 }
 
 TEST(SelectEdges, KeepsTheBestPartnerOfAnotherVisit) {
   Edges edges{14, {}};  // two visits of four segments, each joined with each
   for (std::uint32_t i = 0; i < 4; ++i)
-    for (std::uint32_t j = 10; j < 14; ++j) edges.list.push_back(edge(i, j, i + 10 == j ? 0.9 : 0.3));
+    for (std::uint32_t j = 10; j < 14; ++j)
+      edges.list.push_back(edge(i, j, i + 10 == j ? 0.9 : 0.3));
   SelectOptions options;
   options.per_visit = 1;
-  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(14), options)), ElementsAre(Pair(0, 10), Pair(1, 11), Pair(2, 12), Pair(3, 13)));
+  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(14), options)),
+              ElementsAre(Pair(0, 10), Pair(1, 11), Pair(2, 12), Pair(3, 13)));
 }
 
 TEST(SelectEdges, AsksTheVisitsWithTheGreatestScoresFirst) {
   const Edges edges{21, {edge(0, 10, 0.9), edge(0, 20, 0.5), edge(10, 20, 0.8)}};
   SelectOptions options;
   options.max_visits = 1;
-  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(21), options)), ElementsAre(Pair(0, 10), Pair(10, 20)));
+  EXPECT_THAT(pairs_of(select_edges(edges, in_a_line(21), options)),
+              ElementsAre(Pair(0, 10), Pair(10, 20)));
   options.max_visits = 2;
   EXPECT_EQ(select_edges(edges, in_a_line(21), options).size(), 3u);
 }
@@ -132,21 +144,29 @@ TEST(SelectEdges, AsksTheVisitsWithTheGreatestScoresFirst) {
 TEST(SelectEdges, CountsAVisitAsOneWhereOneOfItsSegmentsIsMissing) {
   SelectOptions options;
   options.max_visits = 1;  // the partners of 0 have better ones than 0, so they do not ask for it
-  const Edges one_missing{41, {edge(0, 10, 0.9), edge(0, 12, 0.8), edge(10, 30, 0.95), edge(12, 40, 0.95)}};
+  const Edges one_missing{
+      41, {edge(0, 10, 0.9), edge(0, 12, 0.8), edge(10, 30, 0.95), edge(12, 40, 0.95)}};
   EXPECT_EQ(select_edges(one_missing, in_a_line(41), options).size(), 4u);
-  const Edges two_missing{41, {edge(0, 10, 0.9), edge(0, 13, 0.8), edge(10, 30, 0.95), edge(13, 40, 0.95)}};
-  EXPECT_THAT(pairs_of(select_edges(two_missing, in_a_line(41), options)), ElementsAre(Pair(0, 10), Pair(10, 30), Pair(13, 40)));
+  const Edges two_missing{
+      41, {edge(0, 10, 0.9), edge(0, 13, 0.8), edge(10, 30, 0.95), edge(13, 40, 0.95)}};
+  EXPECT_THAT(pairs_of(select_edges(two_missing, in_a_line(41), options)),
+              ElementsAre(Pair(0, 10), Pair(10, 30), Pair(13, 40)));
 }
 
 TEST(SelectEdges, DropsWhatTooMuchPathLiesBetweenButNothingSequential) {
-  std::vector<Eigen::Vector3d> there_and_back;  // 0 and 4 are at one place with 40 m of path between them
+  std::vector<Eigen::Vector3d>
+      there_and_back;  // 0 and 4 are at one place with 40 m of path between them
   for (const double x : {0, 10, 20, 10, 0}) there_and_back.emplace_back(x, 0, 0);
-  const Edges edges{5, {edge(0, 1, 1), edge(0, 2, 1), edge(0, 4, 1), edge(1, 2, 1), edge(2, 3, 1), edge(3, 4, 1)}};
+  const Edges edges{
+      5,
+      {edge(0, 1, 1), edge(0, 2, 1), edge(0, 4, 1), edge(1, 2, 1), edge(2, 3, 1), edge(3, 4, 1)}};
   SelectOptions options;
   options.max_path_separation = 20;
-  EXPECT_THAT(pairs_of(select_edges(edges, there_and_back, options)), ElementsAre(Pair(0, 1), Pair(0, 2), Pair(1, 2), Pair(2, 3), Pair(3, 4)));
+  EXPECT_THAT(pairs_of(select_edges(edges, there_and_back, options)),
+              ElementsAre(Pair(0, 1), Pair(0, 2), Pair(1, 2), Pair(2, 3), Pair(3, 4)));
   options.max_path_separation = 5;
-  EXPECT_THAT(pairs_of(select_edges(edges, there_and_back, options)), ElementsAre(Pair(0, 1), Pair(1, 2), Pair(2, 3), Pair(3, 4)));
+  EXPECT_THAT(pairs_of(select_edges(edges, there_and_back, options)),
+              ElementsAre(Pair(0, 1), Pair(1, 2), Pair(2, 3), Pair(3, 4)));
 }
 
 TEST(SelectEdges, AreThoseThatASecondWayToAskFinds) {
@@ -168,7 +188,8 @@ TEST(SelectEdges, AreThoseThatASecondWayToAskFinds) {
 TEST(SelectEdges, GrowInNumberWithTheSegmentsAlone) {
   const SelectOptions options;
   const std::uint32_t most = 1 + 2 * options.max_along + options.max_visits * options.per_visit;
-  for (const std::uint32_t n : {50u, 100u, 200u}) EXPECT_LE(select_edges(random_edges(n, 0.7, n), in_a_line(n), options).size(), most * n);
+  for (const std::uint32_t n : {50u, 100u, 200u})
+    EXPECT_LE(select_edges(random_edges(n, 0.7, n), in_a_line(n), options).size(), most * n);
 }
 
 TEST(SelectEdges, AreNoneOfNoneAndOfNoSegments) {

@@ -47,7 +47,8 @@ class Finder {
 
 }  // namespace
 
-Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count, double min_width, double max_thickness) {
+Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count, double min_width,
+                             double max_thickness) {
   if (count < 3) return Eigen::Vector3f::Zero();
   double x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (std::size_t m = 0; m < count; ++m) {
@@ -65,7 +66,8 @@ Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count, d
   eigen.computeDirect(covariance);
   const auto& variances = eigen.eigenvalues();
   if (!(variances[1] > min_width * min_width * variances[2])) return Eigen::Vector3f::Zero();
-  if (max_thickness < 1 && !(variances[0] <= max_thickness * max_thickness * variances[1])) return Eigen::Vector3f::Zero();
+  if (max_thickness < 1 && !(variances[0] <= max_thickness * max_thickness * variances[1]))
+    return Eigen::Vector3f::Zero();
   return eigen.eigenvectors().col(0).normalized().cast<float>();
 }
 
@@ -81,8 +83,9 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
     const std::size_t end = std::min(size, (block + 1) * block_points);
     for (std::size_t k = block * block_points; k < end; ++k) {
       const auto& points = finder.around(k);
-      Eigen::Vector3f normal = of.planar ? line_normal(points.data(), points.size())
-                                         : plane_normal(points.data(), points.size(), of.min_width, of.max_thickness);
+      Eigen::Vector3f normal =
+          of.planar ? line_normal(points.data(), points.size())
+                    : plane_normal(points.data(), points.size(), of.min_width, of.max_thickness);
       if (normal.isZero()) {
         ++without[block];
         continue;

@@ -18,23 +18,28 @@ namespace plumb {
 struct Neighbourhood {
   std::optional<double> radius;
   std::optional<std::uint32_t> most;
-  /// Of the standard deviations along the neighbourhood's three axes: the middle one is at least this share of the greatest, else it is a line ...
+  /// Of the standard deviations along the neighbourhood's three axes: the middle one is at least
+  /// this share of the greatest, else it is a line ...
   double min_width = 1e-3;
-  double max_thickness = 1;  ///< ... and the least at most this share of the middle one, else it is no surface
-  bool planar = false;  ///< the cloud lies in a plane z = const: normals of lines in it, by line_normal
+  double max_thickness =
+      1;  ///< ... and the least at most this share of the middle one, else it is no surface
+  bool planar =
+      false;  ///< the cloud lies in a plane z = const: normals of lines in it, by line_normal
 };
 
 /// Writes nx, ny, nz of `cloud`: unit normals that point to the half space of `origin(k)`, where
 /// the sensor stood when it saw point k [m]. A point with fewer than 3 neighbours, or whose
-/// neighbours lie on one line or on no surface (see Neighbourhood), gets the normal (0, 0, 0). `tree` holds the cloud's points. The
-/// result does not depend on the number of threads. Returns how many points have no normal.
+/// neighbours lie on one line or on no surface (see Neighbourhood), gets the normal (0, 0, 0).
+/// `tree` holds the cloud's points. The result does not depend on the number of threads. Returns
+/// how many points have no normal.
 std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbourhood& of,
                              const std::function<Eigen::Vector3f(std::size_t)>& origin,
                              Context& context);
 
 /// The unit normal of the plane that fits `points` best in the sense of least squares, up to sign;
-/// zero if there are fewer than 3 or the shares are not met. Coordinates should be small (taken from
-/// a point nearby), so that the sums keep their digits.
-Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count, double min_width = 1e-3, double max_thickness = 1);
+/// zero if there are fewer than 3 or the shares are not met. Coordinates should be small (taken
+/// from a point nearby), so that the sums keep their digits.
+Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count,
+                             double min_width = 1e-3, double max_thickness = 1);
 
 }  // namespace plumb

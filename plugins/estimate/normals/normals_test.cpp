@@ -111,7 +111,8 @@ Cloud noisy_line(float across) {
   Random random(6);
   Cloud cloud;
   for (int k = 0; k < 600; ++k)
-    cloud.add({0.01f * static_cast<float>(k), across * static_cast<float>(2 * random.uniform() - 1), across * static_cast<float>(2 * random.uniform() - 1)});
+    cloud.add({0.01f * static_cast<float>(k), across * static_cast<float>(2 * random.uniform() - 1),
+               across * static_cast<float>(2 * random.uniform() - 1)});
   return cloud;
 }
 Cloud volume() {
@@ -135,7 +136,8 @@ TEST(Normals, AreZeroAlongANoisyLineWhereAWidthIsAskedFor) {
   const std::size_t all = cloud.size();
   EXPECT_EQ(estimate(cloud, with_shares({0.5, {}}, 0.2, 1), {3, 0, 9}), all);
   for (std::size_t k = 0; k < all; ++k) EXPECT_TRUE(cloud.normal(k).isZero());
-  EXPECT_EQ(estimate(cloud, {0.5, {}}, {3, 0, 9}), 0u) << "without it noise makes a plane of the line";
+  EXPECT_EQ(estimate(cloud, {0.5, {}}, {3, 0, 9}), 0u)
+      << "without it noise makes a plane of the line";
 }
 
 TEST(Normals, AreZeroInAVolumeWhereAThicknessIsAllowed) {
@@ -164,7 +166,8 @@ TEST(PlaneNormal, IsThereFromTheLeastWidthToTheMostThickness) {
         for (const float z : {-c, c}) points.emplace_back(x, y, z);
     return points;
   };
-  const auto has_one = [](const std::vector<Eigen::Vector3f>& points, double min_width, double max_thickness) {
+  const auto has_one = [](const std::vector<Eigen::Vector3f>& points, double min_width,
+                          double max_thickness) {
     return !plane_normal(points.data(), points.size(), min_width, max_thickness).isZero();
   };
   EXPECT_TRUE(has_one(box(1, 0.5f, 0.1f), 0.49, 0.21));
@@ -196,7 +199,8 @@ TEST(LineNormal, StandsOnTheLineWhateverItsDirection) {
 
 TEST(LineNormal, IsZeroAtACorner) {
   std::vector<Eigen::Vector3f> points;
-  for (int k = 0; k < 5; ++k) points.emplace_back(0.1f * k, 0, 0), points.emplace_back(0, 0.1f * k, 0);
+  for (int k = 0; k < 5; ++k)
+    points.emplace_back(0.1f * k, 0, 0), points.emplace_back(0, 0.1f * k, 0);
   EXPECT_TRUE(line_normal(points.data(), points.size()).isZero());
 }
 

@@ -41,10 +41,18 @@ struct EstimateNormals : SegmentStep {
         .range(3, 1000)
         .doc(
             "at most so many, the nearest, the point itself included; none: all within the radius");
-    is.param("min_width", &Params::min_width).unit("%").range(0, 1)
-        .doc("neighbours that are spread across by less than this share of their spread along lie on a line, which has no normal: of one scan line");
-    is.param("max_thickness", &Params::max_thickness).unit("%").range(0, 1)
-        .doc("neighbours that are spread off their plane by more than this share of their spread across lie on no surface, as in a tree");
+    is.param("min_width", &Params::min_width)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "neighbours that are spread across by less than this share of their spread along lie "
+            "on a line, which has no normal: of one scan line");
+    is.param("max_thickness", &Params::max_thickness)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "neighbours that are spread off their plane by more than this share of their spread "
+            "across lie on no surface, as in a tree");
     is.param("planar", &Params::planar)
         .doc("the clouds are a 2-D laser's: normals of lines in the plane, (0, 0, 0) at corners");
   }
@@ -53,7 +61,8 @@ struct EstimateNormals : SegmentStep {
     const Segment& segment = *in.segment;
     Cloud cloud = segment.cloud;
     const std::size_t without = estimate_normals(
-        cloud, segment.tree(), {params.radius, params.neighbours, params.min_width, params.max_thickness, params.planar},
+        cloud, segment.tree(),
+        {params.radius, params.neighbours, params.min_width, params.max_thickness, params.planar},
         [&](std::size_t k) { return segment.origin(k); }, context);
     if (without > 0) context.count("points without a normal", without);
     return {segment.with(std::move(cloud), segment.frame)};

@@ -32,10 +32,12 @@ TEST(EstimateNormalsStep, TurnsEachNormalToTheSensorOfItsOwnFrame) {
 }
 
 TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
-  // Rows 2 m apart, points 0.2 m: within 1 m of a point lies its own row only, with 1 cm of noise to its sides.
+  // Rows 2 m apart, points 0.2 m: within 1 m of a point lies its own row only, with 1 cm of noise
+  // to its sides.
   Random random(1);
   Segment rows = patch();
-  for (std::size_t k = 0; k < 400; ++k) rows.cloud.y[k] = 10 * rows.cloud.y[k] + 0.02f * static_cast<float>(random.uniform() - 0.5);
+  for (std::size_t k = 0; k < 400; ++k)
+    rows.cloud.y[k] = 10 * rows.cloud.y[k] + 0.02f * static_cast<float>(random.uniform() - 0.5);
   rows = rows.with(rows.cloud, rows.frame);
   for (const bool wide : {false, true}) {
     TestContext context;

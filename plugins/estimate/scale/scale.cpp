@@ -8,7 +8,9 @@ double usual_speed(const Trajectory& trajectory) {
   std::vector<double> speeds;
   for (std::size_t k = 1; k < trajectory.size(); ++k) {
     const double time = trajectory.stamps[k] - trajectory.stamps[k - 1];
-    const double path = (trajectory.T_world_frame[k].translation - trajectory.T_world_frame[k - 1].translation).norm();
+    const double path =
+        (trajectory.T_world_frame[k].translation - trajectory.T_world_frame[k - 1].translation)
+            .norm();
     if (time > 0) speeds.push_back(path / time);
   }
   if (speeds.empty()) return 0;
@@ -19,6 +21,8 @@ double usual_speed(const Trajectory& trajectory) {
   return count > 0 ? *(moving + count / 2) : 0;
 }
 
-double scale_at(double speed, double full_speed, double min) { return speed > 0 ? std::clamp(speed / full_speed, min, 1.0) : 1.0; }
+double scale_at(double speed, double full_speed, double min) {
+  return speed > 0 ? std::clamp(speed / full_speed, min, 1.0) : 1.0;
+}
 
 }  // namespace plumb

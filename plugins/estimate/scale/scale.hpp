@@ -5,8 +5,8 @@
 
 namespace plumb {
 
-/// Median speed [m/s] of the motions between consecutive frames, those at rest (under a tenth of the fastest tenth) left out; 0 where stamps do not grow or
-/// nothing moves.
+/// Median speed [m/s] of the motions between consecutive frames, those at rest (under a tenth of
+/// the fastest tenth) left out; 0 where stamps do not grow or nothing moves.
 double usual_speed(const Trajectory& trajectory);
 
 /// speed / full_speed, from `min` to 1; 1 for a speed of 0.

@@ -15,7 +15,8 @@ Trajectory with_speeds(const std::vector<double>& speeds, double period = 0.1) {
   for (const double speed : speeds) {
     const Eigen::Vector3d last = trajectory.T_world_frame.back().translation;
     trajectory.stamps.push_back(trajectory.stamps.back() + period);
-    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), last + Eigen::Vector3d(speed * period, 0, 0)});
+    trajectory.T_world_frame.push_back(
+        {Eigen::Quaterniond::Identity(), last + Eigen::Vector3d(speed * period, 0, 0)});
   }
   return trajectory;
 }
@@ -51,7 +52,8 @@ TEST(UsualSpeed, IsTheMedianOfSpeedsAndNotMovedByAJump) {
 TEST(UsualSpeed, LeavesRestsOutThatAreNotQuiteStill) {
   auto speeds = a_walk();
   const double walking = usual_speed(with_speeds(speeds));
-  for (int k = 0; k < 1000; ++k) speeds.push_back(0.001 * (k % 50));  // up to 5 cm/s of noise, three quarters of the time
+  for (int k = 0; k < 1000; ++k)
+    speeds.push_back(0.001 * (k % 50));  // up to 5 cm/s of noise, three quarters of the time
   EXPECT_NEAR(usual_speed(with_speeds(speeds)), walking, 1e-9);
 }
 
@@ -69,7 +71,8 @@ TEST(UsualSpeed, IsZeroWhereNothingTellsIt) {
   EXPECT_EQ(usual_speed({}), 0);
   EXPECT_EQ(usual_speed(with_speeds({})), 0);
   EXPECT_EQ(usual_speed(with_speeds(std::vector<double>(50, 0.0))), 0);
-  EXPECT_EQ(usual_speed(with_speeds(std::vector<double>(50, 8.0), 0)), 0);  // the stamps stand still
+  EXPECT_EQ(usual_speed(with_speeds(std::vector<double>(50, 8.0), 0)),
+            0);  // the stamps stand still
 }
 
 TEST(UsualSpeed, PassesOverStampsThatStepBack) {

@@ -18,7 +18,8 @@ namespace {
 /// Stretches [s] between each scan and the one before it in the sequence; 0 where stamps step back.
 std::vector<double> stretches(const std::vector<Seen>& scans) {
   std::vector<double> between(scans.size(), 0);
-  for (std::size_t k = 1; k < scans.size(); ++k) between[k] = std::max(0.0, scans[k].begin - scans[k - 1].end);
+  for (std::size_t k = 1; k < scans.size(); ++k)
+    between[k] = std::max(0.0, scans[k].begin - scans[k - 1].end);
   return between;
 }
 
@@ -36,7 +37,8 @@ Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options) {
   Gated result;
   result.edges.segments = static_cast<std::uint32_t>(scans.size());
   const std::vector<double> between = stretches(scans);
-  const double longest = options.gap ? std::max(*options.gap, options.patience * median_of_positive(between)) : 0;
+  const double longest =
+      options.gap ? std::max(*options.gap, options.patience * median_of_positive(between)) : 0;
   std::optional<std::uint32_t> last;
   std::uint32_t dropped = 0;  // for their change, since the last accepted one
   bool after_gap = false;     // since the last accepted one

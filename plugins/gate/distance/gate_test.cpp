@@ -82,7 +82,8 @@ TEST(GateDistance, StartsAgainAfterAStretchWithoutScans) {
 TEST(GateDistance, TakesNoGapFromSlowLogsOrStampsThatStepBack) {
   GateOptions options;
   options.gap = 3;
-  EXPECT_EQ(gated_chain(scans_when({0, 4, 8, 12, 16, 30}), options).resets, 0u);  // 14 s are but 3.5 usual stretches
+  EXPECT_EQ(gated_chain(scans_when({0, 4, 8, 12, 16, 30}), options).resets,
+            0u);  // 14 s are but 3.5 usual stretches
   EXPECT_EQ(gated_chain(scans_when({0, 0.2, 0.4, -90, -89.8, 0.6, 0.8}), options).gaps, 1u);
 }
 
@@ -90,7 +91,8 @@ TEST(GateDistance, CountsEveryScanOnce) {
   Random random(3);
   for (int turn = 0; turn < 50; ++turn) {
     std::vector<double> ranges;
-    for (int k = 0; k < 60; ++k) ranges.push_back(random.uniform() < 0.1 ? -1 : 1 + 4 * random.uniform());
+    for (int k = 0; k < 60; ++k)
+      ranges.push_back(random.uniform() < 0.1 ? -1 : 1 + 4 * random.uniform());
     const auto gated = gated_chain(scans_at(ranges), {0.1, 2, 10});
     EXPECT_EQ(gated.accepted + gated.far + gated.empty, ranges.size());
     ASSERT_EQ(gated.edges.size(), gated.accepted - 1);
@@ -126,7 +128,10 @@ TEST(GateDistance, TakesStampsFromTheTrajectory) {
     segments[k].range.first = 2 * k, segments[k].range.end = 2 * k + 2;
   }
   TestContext context;
-  EXPECT_EQ(text(StepRun(*plumb_module()).each("segments", segments).with("trajectory", trajectory).run<Edges>("edges", context)),
+  EXPECT_EQ(text(StepRun(*plumb_module())
+                     .each("segments", segments)
+                     .with("trajectory", trajectory)
+                     .run<Edges>("edges", context)),
             "0-1 1-2 2-3 3-4 4-5! 5-6 6-7");
   trajectory.stamps.resize(15), trajectory.T_world_frame.resize(15);
   StepRun other(*plumb_module());

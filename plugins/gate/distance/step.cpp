@@ -20,21 +20,30 @@ struct GateDistance : WholeStep {
     is.name("gate.distance").version(2).source("[Zhang2023] eq. 13");
     is.summary("Joins each scan to the one before, leaving out those that jump.");
     is.input("segments", &In::segments, "the scans in order, one a segment");
-    is.optional_input("trajectory", &In::trajectory, "the frames' stamps: with them a stretch without scans starts a new window");
+    is.optional_input("trajectory", &In::trajectory,
+                      "the frames' stamps: with them a stretch without scans starts a new window");
     is.output("edges", &Out::edges, "the chain: each accepted scan and the accepted one before it");
     is.output("metrics", &Out::metrics, "scans accepted and dropped, windows started again");
     is.param("limit", &Params::limit)
         .range(0, 1)
-        .doc("greatest (r0 - r1)^2 / (r0 + r1)^2 that is accepted, r being how far a scan's centre lies from the sensor")
+        .doc(
+            "greatest (r0 - r1)^2 / (r0 + r1)^2 that is accepted, r being how far a scan's centre "
+            "lies from the sensor")
         .source("[Zhang2023] eq. 13");
     is.param("patience", &Params::patience)
         .range(0, 1e6)
-        .doc("after so many dropped in a row the window is emptied and starts again with the present scan");
+        .doc(
+            "after so many dropped in a row the window is emptied and starts again with the "
+            "present scan");
     is.param("gap", &Params::gap)
         .unit("s")
         .range(0, 1e9)
-        .doc("after a longer stretch without scans, if it is longer than 'patience' usual ones too, the window starts again; none: never");
-    is.param("least_points", &Params::least_points).range(1, 1e6).doc("scans with fewer points are dropped");
+        .doc(
+            "after a longer stretch without scans, if it is longer than 'patience' usual ones too, "
+            "the window starts again; none: never");
+    is.param("least_points", &Params::least_points)
+        .range(1, 1e6)
+        .doc("scans with fewer points are dropped");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -45,9 +54,11 @@ struct GateDistance : WholeStep {
       if (!in.trajectory) return;
       const Range& range = segment->range;
       if (range.size() == 0 || range.end > in.trajectory->size())
-        throw Error("a segment holds frames up to " + std::to_string(range.end) + ", the trajectory has " +
-                    std::to_string(in.trajectory->size()) + ": wire the trajectory that the segments were cut from");
-      scans[k].begin = in.trajectory->stamps[range.first], scans[k].end = in.trajectory->stamps[range.end - 1];
+        throw Error("a segment holds frames up to " + std::to_string(range.end) +
+                    ", the trajectory has " + std::to_string(in.trajectory->size()) +
+                    ": wire the trajectory that the segments were cut from");
+      scans[k].begin = in.trajectory->stamps[range.first],
+      scans[k].end = in.trajectory->stamps[range.end - 1];
     });
     Gated gated = gated_chain(scans, params);
     const auto count = [&](const char* what, std::size_t n) {
@@ -58,7 +69,8 @@ struct GateDistance : WholeStep {
     count("windows started again", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)
-      context.warn("fewer than two scans of " + std::to_string(scans.size()) + " are accepted: there is no chain");
+      context.warn("fewer than two scans of " + std::to_string(scans.size()) +
+                   " are accepted: there is no chain");
     Out out;
     out.metrics.add("accepted", static_cast<double>(gated.accepted), "")
         .add("dropped", static_cast<double>(gated.far + gated.empty), "")

@@ -14,7 +14,8 @@ std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, cons
     way[k] = way[k - 1] + poses.relative(k - 1, k).translation.norm();
   std::vector<std::size_t> order(loops.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return loops[a].j < loops[b].j; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return loops[a].j < loops[b].j; });
 
   std::vector<std::uint32_t> support(loops.size(), 0);
   for (std::size_t m = 0; m < order.size(); ++m) {
@@ -25,7 +26,8 @@ std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, cons
       if (at_j > options.within) break;
       const double at_i = std::abs(way[b.i] - way[a.i]);
       if (a.j == b.j || at_i > options.within) continue;
-      const Pose circle = a.T_i_j * poses.relative(a.j, b.j) * b.T_i_j.inverse() * poses.relative(b.i, a.i);
+      const Pose circle =
+          a.T_i_j * poses.relative(a.j, b.j) * b.T_i_j.inverse() * poses.relative(b.i, a.i);
       const double limit = options.agree + options.per_metre * (at_i + at_j);
       if (circle.translation.norm() > limit || angle(circle) > limit / 3) continue;
       ++support[order[m]], ++support[order[n]];

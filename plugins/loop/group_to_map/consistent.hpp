@@ -14,9 +14,10 @@ struct SupportOptions {
   double per_metre = 0.02;    ///< ... and so much more for each metre of way between their ends
 };
 
-/// The loops that at least `support` others agree with. Two loops (i, j) and (k, l) whose ends are near each other along the way
-/// close a circle T_i_j T_j_l T_l_k T_k_i with two short pieces of the trajectory, which must come back to where it began.
-/// Source: cycle consistency as in [Mangelson2018], between neighbours alone. Order is kept. O(n times neighbours).
+/// The loops that at least `support` others agree with. Two loops (i, j) and (k, l) whose ends are
+/// near each other along the way close a circle T_i_j T_j_l T_l_k T_k_i with two short pieces of
+/// the trajectory, which must come back to where it began. Source: cycle consistency as in
+/// [Mangelson2018], between neighbours alone. Order is kept. O(n times neighbours).
 std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, const Poses& poses,
                                     const SupportOptions& options);
 

@@ -20,7 +20,8 @@ class Places {
   void add(const Cloud& cloud, const PlanarPose& T) {
     const double c = std::cos(T.yaw), s = std::sin(T.yaw);
     for (std::size_t k = 0; k < cloud.size(); ++k) {
-      const double px = T.x + c * cloud.x[k] - s * cloud.y[k], py = T.y + s * cloud.x[k] + c * cloud.y[k];
+      const double px = T.x + c * cloud.x[k] - s * cloud.y[k],
+                   py = T.y + s * cloud.x[k] + c * cloud.y[k];
       if (px * px + py * py > square_) continue;
       const auto column = static_cast<std::int64_t>(std::floor(px * per_metre_));
       const auto row = static_cast<std::int64_t>(std::floor(py * per_metre_));
@@ -37,8 +38,8 @@ class Places {
 
 class LoopFinder {
  public:
-  LoopFinder(const std::function<std::shared_ptr<const Segment>(std::size_t)>& open, const Poses& poses,
-             const Relations* known, const LoopOptions& options)
+  LoopFinder(const std::function<std::shared_ptr<const Segment>(std::size_t)>& open,
+             const Poses& poses, const Relations* known, const LoopOptions& options)
       : open_(open), options_(options), ways_(poses, known, options.turn_length, 2 * options.near) {
     for (const auto& pose : poses.T_world_segment) poses_.push_back(planar(pose));
   }
@@ -71,13 +72,18 @@ class LoopFinder {
 
  private:
   double way(std::uint32_t k) const { return ways_.travelled()[k]; }
-  double reach(double length) const { return std::min(options_.most_reach, 0.3 + options_.drift * length); }
-  double turn(double length) const { return std::min(options_.most_turn, 0.05 + options_.heading_drift * length); }
+  double reach(double length) const {
+    return std::min(options_.most_reach, 0.3 + options_.drift * length);
+  }
+  double turn(double length) const {
+    return std::min(options_.most_turn, 0.05 + options_.heading_drift * length);
+  }
   double distance(std::uint32_t i, std::uint32_t j) const {
     return std::hypot(poses_[i].x - poses_[j].x, poses_[i].y - poses_[j].y);
   }
 
-  /// The nearest segment of each earlier visit, a visit being a stretch of way in reach no longer than the map that it is laid onto.
+  /// The nearest segment of each earlier visit, a visit being a stretch of way in reach no longer
+  /// than the map that it is laid onto.
   std::vector<std::uint32_t> visits(std::uint32_t j, const std::vector<double>& ways) const {
     std::vector<std::uint32_t> list;
     std::optional<std::uint32_t> nearest, last, first;
@@ -94,20 +100,24 @@ class LoopFinder {
       if (!nearest || distance(i, j) < distance(*nearest, j)) nearest = i;
     }
     close();
-    std::stable_sort(list.begin(), list.end(), [&](auto a, auto b) { return distance(a, j) < distance(b, j); });
+    std::stable_sort(list.begin(), list.end(),
+                     [&](auto a, auto b) { return distance(a, j) < distance(b, j); });
     if (list.size() > options_.most_places) list.resize(options_.most_places);
     return list;
   }
 
-  std::optional<RelativePose> lay(const Places& group, double step, std::uint32_t i, std::uint32_t j,
-                                  double length, LoopCounts& counts) const {
+  std::optional<RelativePose> lay(const Places& group, double step, std::uint32_t i,
+                                  std::uint32_t j, double length, LoopCounts& counts) const {
     Places map(0.5 * options_.resolution, options_.range + options_.near);
     const std::uint32_t from = i - std::min(i, options_.map);
-    for (std::uint32_t k = from; k <= i + options_.map && k < j && way(j) - way(k) >= 0.5 * options_.gap; ++k)
+    for (std::uint32_t k = from;
+         k <= i + options_.map && k < j && way(j) - way(k) >= 0.5 * options_.gap; ++k)
       map.add(open_(k)->cloud, poses_[i].inverse() * poses_[k]);
     if (map.x.size() < 20) return std::nullopt;
-    const LikelihoodField field(map.x, map.y, options_.resolution, options_.resolution, 3 * options_.resolution, 6);
-    const SearchWindow window{poses_[i].inverse() * poses_[j], reach(length), reach(length), turn(length)};
+    const LikelihoodField field(map.x, map.y, options_.resolution, options_.resolution,
+                                3 * options_.resolution, 6);
+    const SearchWindow window{poses_[i].inverse() * poses_[j], reach(length), reach(length),
+                              turn(length)};
     const auto peak = best_pose(field, group.x, group.y, window, step, options_.least_score);
     if (!peak) return ++counts.low, std::nullopt;
     if (best_pose(field, group.x, group.y, window, step, options_.second_peak * peak->score,
@@ -115,8 +125,10 @@ class LoopFinder {
       return ++counts.ambiguous, std::nullopt;
     const PlanarPose T = between_cells(field, group.x, group.y, peak->pose, step);
     RelativePose loop{i, j, in_space(T), Matrix6d::Zero()};
-    // Half a cell as standard deviation; a relation's rotation is a quaternion's vector, half the angle.
-    const double place = std::pow(0.5 * options_.resolution, -2), heading = 4 * std::pow(0.5 * step, -2);
+    // Half a cell as standard deviation; a relation's rotation is a quaternion's vector, half the
+    // angle.
+    const double place = std::pow(0.5 * options_.resolution, -2),
+                 heading = 4 * std::pow(0.5 * step, -2);
     loop.information.diagonal() << place, place, 0, 0, 0, heading;
     return loop;
   }
@@ -129,25 +141,28 @@ class LoopFinder {
 
 }  // namespace
 
-Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)>& open, const Poses& poses,
-                 const Relations* known, const LoopOptions& options, Context& context) {
+Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)>& open,
+                 const Poses& poses, const Relations* known, const LoopOptions& options,
+                 Context& context) {
   const LoopFinder finder(open, poses, known, options);
   const auto asking = finder.asking();
   std::vector<std::vector<RelativePose>> found(asking.size());
   std::vector<LoopCounts> counts(asking.size());
-  context.parallel(asking.size(), [&](std::size_t k) { found[k] = finder.ask(asking[k], counts[k]); });
+  context.parallel(asking.size(),
+                   [&](std::size_t k) { found[k] = finder.ask(asking[k], counts[k]); });
   Loops result;
   result.relations.planar = true;
   result.counts.asked = static_cast<std::uint32_t>(asking.size());
   for (std::size_t k = 0; k < asking.size(); ++k) {
-    result.relations.relative.insert(result.relations.relative.end(), found[k].begin(), found[k].end());
+    result.relations.relative.insert(result.relations.relative.end(), found[k].begin(),
+                                     found[k].end());
     result.counts.tried += counts[k].tried;
     result.counts.low += counts[k].low;
     result.counts.ambiguous += counts[k].ambiguous;
   }
   const auto before = result.relations.relative.size();
-  result.relations.relative = supported(result.relations.relative, poses,
-                                        {options.support, 10, options.agree, 0.02});
+  result.relations.relative =
+      supported(result.relations.relative, poses, {options.support, 10, options.agree, 0.02});
   result.counts.alone = static_cast<std::uint32_t>(before - result.relations.relative.size());
   return result;
 }

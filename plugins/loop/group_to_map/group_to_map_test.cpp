@@ -16,7 +16,8 @@ using Plan = std::vector<std::array<double, 4>>;
 Cloud scan(const Plan& plan, const PlanarPose& at) {
   Cloud cloud;
   for (int k = 0; k < 240; ++k) {
-    const double angle = 2 * M_PI * k / 240, dx = std::cos(at.yaw + angle), dy = std::sin(at.yaw + angle);
+    const double angle = 2 * M_PI * k / 240, dx = std::cos(at.yaw + angle),
+                 dy = std::sin(at.yaw + angle);
     double nearest = 12;
     for (const auto& w : plan) {
       const double ex = w[2] - w[0], ey = w[3] - w[1], det = ex * dy - ey * dx;
@@ -25,7 +26,9 @@ Cloud scan(const Plan& plan, const PlanarPose& at) {
       const double range = (ex * py - ey * px) / det, along = (dx * py - dy * px) / det;
       if (range > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, range);
     }
-    if (nearest < 12) cloud.add({static_cast<float>(nearest * std::cos(angle)), static_cast<float>(nearest * std::sin(angle)), 0});
+    if (nearest < 12)
+      cloud.add({static_cast<float>(nearest * std::cos(angle)),
+                 static_cast<float>(nearest * std::sin(angle)), 0});
   }
   return cloud;
 }
@@ -39,7 +42,8 @@ Segment segment_of(const Cloud& cloud) {
 
 /// A square ring of corridors, 12 m x 12 m outside and 2 m wide, with niches at uneven places.
 Plan ring(bool niches) {
-  Plan plan = {{0, 0, 12, 0}, {12, 0, 12, 12}, {12, 12, 0, 12}, {0, 12, 0, 0}, {2, 2, 10, 2}, {10, 2, 10, 10}, {10, 10, 2, 10}, {2, 10, 2, 2}};
+  Plan plan = {{0, 0, 12, 0}, {12, 0, 12, 12}, {12, 12, 0, 12}, {0, 12, 0, 0},
+               {2, 2, 10, 2}, {10, 2, 10, 10}, {10, 10, 2, 10}, {2, 10, 2, 2}};
   if (niches)
     for (const double at : {3.0, 4.7, 7.9}) {
       plan.push_back({at, 0, at, 0.3});
@@ -56,7 +60,8 @@ struct Drive {
   std::vector<Segment> segments;
 };
 
-/// Once round the ring and a quarter more, a scan every 0.25 m; the heading drifts by `drift` [rad/m].
+/// Once round the ring and a quarter more, a scan every 0.25 m; the heading drifts by `drift`
+/// [rad/m].
 Drive drive(const Plan& plan, double drift) {
   Drive result;
   PlanarPose at{1, 1, 0}, guess = at;
@@ -79,12 +84,14 @@ Drive drive(const Plan& plan, double drift) {
 
 Loops loops_of(const Drive& drive, const LoopOptions& options = {}) {
   TestContext context;
-  return find_loops([&](std::size_t k) { return std::make_shared<const Segment>(drive.segments[k]); }, drive.drifted,
-                    nullptr, options, context);
+  return find_loops(
+      [&](std::size_t k) { return std::make_shared<const Segment>(drive.segments[k]); },
+      drive.drifted, nullptr, options, context);
 }
 
 double wrong_by(const Drive& drive, const RelativePose& loop) {
-  const PlanarPose truth = drive.truth[loop.i].inverse() * drive.truth[loop.j], found = planar(loop.T_i_j);
+  const PlanarPose truth = drive.truth[loop.i].inverse() * drive.truth[loop.j],
+                   found = planar(loop.T_i_j);
   return std::hypot(truth.x - found.x, truth.y - found.y);
 }
 
@@ -138,9 +145,12 @@ TEST(GroupToMap, StepSaysThatPosesOfOthersWereWired) {
 
 TEST(Consistent, DropsTheLoopThatNoOtherAgreesWith) {
   Poses poses;
-  for (int k = 0; k < 100; ++k) poses.T_world_segment.push_back(in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
+  for (int k = 0; k < 100; ++k)
+    poses.T_world_segment.push_back(
+        in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
   std::vector<RelativePose> loops;
-  for (const std::uint32_t j : {70u, 74u, 78u}) loops.push_back({100 - j, j, poses.relative(100 - j, j), Matrix6d::Identity()});
+  for (const std::uint32_t j : {70u, 74u, 78u})
+    loops.push_back({100 - j, j, poses.relative(100 - j, j), Matrix6d::Identity()});
   RelativePose wrong{24, 76, poses.relative(24, 76), Matrix6d::Identity()};
   wrong.T_i_j.translation.x() += 1.5;
   loops.push_back(wrong);

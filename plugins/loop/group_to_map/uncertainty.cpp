@@ -23,8 +23,9 @@ Ways::Ways(const Poses& poses, const Relations* loops, double turn_length, doubl
   if (!loops) return;
   for (const auto& loop : loops->relative) {
     if (loop.i >= poses.size() || loop.j >= poses.size())
-      throw Error("a loop names segment " + std::to_string(std::max(loop.i, loop.j)) + ", but there are " +
-                  std::to_string(poses.size()) + ": wire loops of the same segments");
+      throw Error("a loop names segment " + std::to_string(std::max(loop.i, loop.j)) +
+                  ", but there are " + std::to_string(poses.size()) +
+                  ": wire loops of the same segments");
     join(loop.i, loop.j, loop_length);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// How uncertain one segment's pose is as seen from another: it grows with the way between them along the graph.
+/// How uncertain one segment's pose is as seen from another: it grows with the way between them
+/// along the graph.
 
 #include <vector>
 

@@ -30,25 +30,33 @@ std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, 
   return inside;
 }
 
-/// Asks `of`'s points for the nearest of `near`, `reach` [m]; adds the pairs to matches with p in i and q in j, whichever of the two asks.
-void ask(const Segment& of, const Segment& near, const Motion& near_from_of, const std::optional<std::uint32_t>& most, bool of_is_i,
-         const NearestOptions& options, Matches& matches) {
+/// Asks `of`'s points for the nearest of `near`, `reach` [m]; adds the pairs to matches with p in i
+/// and q in j, whichever of the two asks.
+void ask(const Segment& of, const Segment& near, const Motion& near_from_of,
+         const std::optional<std::uint32_t>& most, bool of_is_i, const NearestOptions& options,
+         Matches& matches) {
   const auto max = static_cast<float>(options.max);
-  const float least_cosine = options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
+  const float least_cosine =
+      options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
   for (const auto k : near_box(of.cloud, near_from_of, near.box, max, most)) {
     const Eigen::Vector3f p = of.cloud.point(k);
     SearchTree::Neighbour nearest;
     if (!near.tree().nearest_within(near_from_of * p, max, nearest)) continue;
     ++matches.found;
     const Eigen::Vector3f q = near.cloud.point(nearest.index);
-    const Eigen::Vector3f normal = options.to_plane || options.reject_normals ? near.cloud.normal(nearest.index) : Eigen::Vector3f::Zero();
+    const Eigen::Vector3f normal = options.to_plane || options.reject_normals
+                                       ? near.cloud.normal(nearest.index)
+                                       : Eigen::Vector3f::Zero();
     if (options.to_plane && normal.isZero()) continue;
-    if (options.reject_normals && (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine) continue;
+    if (options.reject_normals && (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine)
+      continue;
     matches.p.push_back(of_is_i ? p : q);
     matches.q.push_back(of_is_i ? q : p);
     matches.index_p.push_back(of_is_i ? k : nearest.index);
     matches.index_q.push_back(of_is_i ? nearest.index : k);
-    if (options.to_plane) matches.normal_q.push_back(of_is_i ? normal : Eigen::Vector3f(near_from_of.r.transpose() * normal));
+    if (options.to_plane)
+      matches.normal_q.push_back(of_is_i ? normal
+                                         : Eigen::Vector3f(near_from_of.r.transpose() * normal));
   }
 }
 

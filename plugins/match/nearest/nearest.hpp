@@ -24,8 +24,9 @@ struct NearestOptions {
 /// normal_q when to_plane; `found` counts the pairs before any is dropped for its normals: one that
 /// is 0, hence unknown, gives no plane and no angle. Source: [Tang2024] 2.3.2.
 ///
-/// With `both_ways` j's points ask as well, half as many each way with `most_points`: what is wrong with the nearest points of one side alone (a cloud is seen from
-/// one end of its path, and its normals with it) cancels. Their plane is that at i's point, turned to j by T_i_j (ours).
+/// With `both_ways` j's points ask as well, half as many each way with `most_points`: what is wrong
+/// with the nearest points of one side alone (a cloud is seen from one end of its path, and its
+/// normals with it) cancels. Their plane is that at i's point, turned to j by T_i_j (ours).
 Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options);
 

@@ -122,7 +122,8 @@ TEST(Nearest, DropsPairsWhoseNormalsDifferInTheSameFrame) {
   EXPECT_EQ(none.found, 50u);
 }
 
-NearestOptions both_ways(double max, bool to_plane = false, std::optional<std::uint32_t> most = {}) {
+NearestOptions both_ways(double max, bool to_plane = false,
+                         std::optional<std::uint32_t> most = {}) {
   NearestOptions options;
   options.max = max;
   options.to_plane = to_plane;
@@ -132,7 +133,8 @@ NearestOptions both_ways(double max, bool to_plane = false, std::optional<std::u
 }
 
 TEST(NearestBothWays, AgreesWithComparingEachWithEachFromBothSides) {
-  const Segment i = segment_of(random_cloud(1500, 10, 1)), j = segment_of(random_cloud(1500, 10, 2));
+  const Segment i = segment_of(random_cloud(1500, 10, 1)),
+                j = segment_of(random_cloud(1500, 10, 2));
   const Matches matches = nearest_pairs(i, j, T_i_j, both_ways(1.0));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found, expected;
   for (std::size_t k = 0; k < matches.size(); ++k) {
@@ -145,7 +147,9 @@ TEST(NearestBothWays, AgreesWithComparingEachWithEachFromBothSides) {
       double best = 1;
       std::int64_t nearest = -1;
       for (std::uint32_t n = 0; n < near.size(); ++n) {
-        const double squared = (near_from_of * of.point(k).cast<double>() - near.point(n).cast<double>()).squaredNorm();
+        const double squared =
+            (near_from_of * of.point(k).cast<double>() - near.point(n).cast<double>())
+                .squaredNorm();
         if (squared < best) best = squared, nearest = n;
       }
       const auto n = static_cast<std::uint32_t>(nearest);
@@ -170,14 +174,16 @@ TEST(NearestBothWays, FindsTheSamePairsWhenTheSegmentsChangePlaces) {
     std::ranges::sort(pairs);
     return pairs;
   };
-  const Matches one = nearest_pairs(i, j, T_i_j, both_ways(1.0)), other = nearest_pairs(j, i, T_i_j.inverse(), both_ways(1.0));
+  const Matches one = nearest_pairs(i, j, T_i_j, both_ways(1.0)),
+                other = nearest_pairs(j, i, T_i_j.inverse(), both_ways(1.0));
   EXPECT_GT(one.size(), 200u);
   EXPECT_EQ(sorted(one.index_p, one.index_q), sorted(other.index_q, other.index_p));
 }
 
 TEST(NearestBothWays, AsksHalfAsManyPointsEachWay) {
   const Segment i = segment_of(random_cloud(1000, 10, 1)), j = segment_of(random_cloud(600, 10, 2));
-  const Matches matches = nearest_pairs(i, j, Pose(), both_ways(30, false, 100));  // 30 m: everyone finds one
+  const Matches matches =
+      nearest_pairs(i, j, Pose(), both_ways(30, false, 100));  // 30 m: everyone finds one
   ASSERT_EQ(matches.size(), 100u);
   for (std::uint32_t k = 0; k < 50; ++k) {
     EXPECT_EQ(matches.index_p[k], 20 * k) << "of i's 1000";
@@ -186,7 +192,8 @@ TEST(NearestBothWays, AsksHalfAsManyPointsEachWay) {
 }
 
 TEST(NearestBothWays, GivesThePlaneOfTheAskedPointInTheAxesOfJ) {
-  // Walls of i and j, each the other's moved copy; only where j asks does i's normal count, turned to j.
+  // Walls of i and j, each the other's moved copy; only where j asks does i's normal count, turned
+  // to j.
   const Cloud cloud = random_cloud(50, 10, 1);
   Cloud a = cloud, b;
   for (std::size_t k = 0; k < cloud.size(); ++k) b.add(Motion(T_i_j.inverse()) * cloud.point(k));
@@ -220,7 +227,9 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
   give_normals(with, {0, 0, 1});
   const auto refused = [&](bool both) {
     StepRun step(*plumb_module());
-    step.over("edges").ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with)).at("poses", Pose());
+    step.over("edges")
+        .ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with))
+        .at("poses", Pose());
     step.set("metric", std::string("plane")).set("both_ways", both);
     TestContext context;
     try {

@@ -52,7 +52,9 @@ struct Nearest : EdgeStep {
         .range(0, std::numbers::pi)
         .doc("pairs whose normals differ by more are dropped; none: normals are not looked at");
     is.param("both_ways", &Params::both_ways)
-        .doc("the second segment's points ask too, for the nearest of the first: what is one-sided about nearest points cancels");
+        .doc(
+            "the second segment's points ask too, for the nearest of the first: what is one-sided "
+            "about nearest points cancels");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -69,9 +71,9 @@ struct Nearest : EdgeStep {
     if (params.metric == Metric::plane && params.both_ways) demand_normals(i, "both_ways");
     if (params.reject_normals)
       demand_normals(i, "reject_normals"), demand_normals(j, "reject_normals");
-    Matches matches = nearest_pairs(
-        i, j, in.poses.T_i_j,
-        {params.max, params.metric == Metric::plane, params.most_points, params.reject_normals, params.both_ways});
+    Matches matches = nearest_pairs(i, j, in.poses.T_i_j,
+                                    {params.max, params.metric == Metric::plane, params.most_points,
+                                     params.reject_normals, params.both_ways});
     context.count("pairs dropped for their normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};

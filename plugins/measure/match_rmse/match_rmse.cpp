@@ -12,7 +12,8 @@ IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i, 
       !moved(i.box, T_j_i).meets(j.box, static_cast<float>(cap)))
     return pairs;
   const std::size_t n = i.cloud.size();
-  const std::size_t stride = most_points && n > *most_points ? (n + *most_points - 1) / *most_points : 1;
+  const std::size_t stride =
+      most_points && n > *most_points ? (n + *most_points - 1) / *most_points : 1;
   const Motion motion(T_j_i);
   const SearchTree& tree = j.tree();
   for (std::size_t k = 0; k < n; k += stride) {
@@ -28,9 +29,9 @@ double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, cons
   const Eigen::Matrix3d r = T_j_i.matrix();
   double squares = 0;
   for (const auto& [p, q] : pairs)
-    squares += (r * i.cloud.point(p).cast<double>() + T_j_i.translation -
-                j.cloud.point(q).cast<double>())
-                   .squaredNorm();
+    squares +=
+        (r * i.cloud.point(p).cast<double>() + T_j_i.translation - j.cloud.point(q).cast<double>())
+            .squaredNorm();
   return std::sqrt(squares / static_cast<double>(pairs.size()));
 }
 

@@ -55,12 +55,15 @@ TEST(NearestPairs, AreNoneBetweenCloudsFarApartOrEmpty) {
   EXPECT_TRUE(nearest_pairs(Segment(), i, Pose(), 1, std::nullopt).empty());
 }
 
-/// The step's metrics for a cloud compared with itself, the second copy shifted by 0, 1 and 2 cm under three labels.
-Metrics measured(bool fixed_pairs, const std::vector<std::string>& labels, const ParameterValues& values = {}) {
+/// The step's metrics for a cloud compared with itself, the second copy shifted by 0, 1 and 2 cm
+/// under three labels.
+Metrics measured(bool fixed_pairs, const std::vector<std::string>& labels,
+                 const ParameterValues& values = {}) {
   const auto cloud = random_segment(3, 500);
   const auto poses_with = [](double shift) {
     Poses poses;
-    poses.T_world_segment = {Pose(), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(shift, 0, 0))};
+    poses.T_world_segment = {Pose(),
+                             Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(shift, 0, 0))};
     return poses;
   };
   struct Held : Collection {

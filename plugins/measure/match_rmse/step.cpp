@@ -27,20 +27,27 @@ struct MatchRmse : WholeStep {
   static void describe(Declaration<MatchRmse>& is) {
     is.name("measure.match_rmse")
         .version(1)
-        .summary("Measures how far the clouds of neighbouring segments lie apart, averaged over all edges.")
+        .summary(
+            "Measures how far the clouds of neighbouring segments lie apart, averaged over all "
+            "edges.")
         .source("[Tang2024] eq. 3, 3.3");
     is.input("edges", &In::edges, "which segments are compared");
     is.input("segments", &In::segments, "their clouds, thinned as you want them compared");
     is.input("poses", &In::poses, "where the segments are; a number for each, by its label");
-    is.optional_input("pairs", &In::pairs, "poses under which the pairs are found, once for all; without, each has its own pairs");
+    is.optional_input(
+        "pairs", &In::pairs,
+        "poses under which the pairs are found, once for all; without, each has its own pairs");
     is.scale(&In::scale);
-    is.output("metrics", &Out::metrics, "a number for each of 'poses', and under the last of them a record for each edge");
+    is.output("metrics", &Out::metrics,
+              "a number for each of 'poses', and under the last of them a record for each edge");
     is.param("cap", &Params::cap).unit("m").range(1e-3, 100).doc("farther points are no pair");
-    is.param("most_points", &Params::most_points).range(1, 1e9)
+    is.param("most_points", &Params::most_points)
+        .range(1, 1e9)
         .doc("ask for at most so many points of an edge's first segment, evenly chosen; none: all");
   }
 
-  /// What one edge gives: for each labelled poses the rmse (NaN: no pairs), and for the last the pairs asked for and found.
+  /// What one edge gives: for each labelled poses the rmse (NaN: no pairs), and for the last the
+  /// pairs asked for and found.
   struct Result {
     std::vector<double> rmse;
     std::uint32_t asked = 0, found = 0;
@@ -51,7 +58,8 @@ struct MatchRmse : WholeStep {
     Result result;
     IndexPairs pairs;
     if (in.pairs)
-      pairs = nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i), params.cap, params.most_points);
+      pairs =
+          nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i), params.cap, params.most_points);
     for (const auto& [label, poses] : in.poses) {
       const Pose T_j_i = poses->relative(edge.j, edge.i);
       if (!in.pairs) pairs = nearest_pairs(*i, *j, T_j_i, params.cap, params.most_points);
@@ -80,7 +88,8 @@ struct MatchRmse : WholeStep {
                     " that there are; wire edges of the same segments");
 
     std::vector<Result> results(edges.size());
-    context.parallel(edges.size(), [&](std::size_t k) { results[k] = measure(in, edges[k], params); });
+    context.parallel(edges.size(),
+                     [&](std::size_t k) { results[k] = measure(in, edges[k], params); });
 
     Out out;
     for (std::size_t label = 0; label < in.poses.size(); ++label) {
@@ -100,11 +109,13 @@ struct MatchRmse : WholeStep {
       const bool none = std::isnan(rmse);
       without += none;
       out.metrics.edges.push_back({e.i, e.j, e.kind, results[k].asked, results[k].found,
-                                   none ? 0 : rmse, none ? 0.0 : 1.0, none ? "no matches" : "kept"});
+                                   none ? 0 : rmse, none ? 0.0 : 1.0,
+                                   none ? "no matches" : "kept"});
     }
     if (without)
-      out.metrics.notes.push_back(std::to_string(without) + " of " + std::to_string(edges.size()) +
-                                  " edges have no points nearer than the cap and are not in the mean");
+      out.metrics.notes.push_back(
+          std::to_string(without) + " of " + std::to_string(edges.size()) +
+          " edges have no points nearer than the cap and are not in the mean");
     return out;
   }
 };

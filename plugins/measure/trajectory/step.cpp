@@ -26,13 +26,20 @@ struct MeasureTrajectory : WholeStep {
         .version(2)
         .summary("Measures the absolute and relative error of trajectories against a true one.")
         .source("Sturm et al. 2012");
-    is.input("trajectories", &In::trajectories, "any number of trajectories; numbers are named after the label");
-    is.output("metrics", &Out::metrics, 
-              "for each trajectory ate, ate_max, rpe_translation, rpe_rotation, displacement_x, displacement_y");
-    is.param("truth", &Params::truth).doc("TUM file with the true poses; none: a note, and no numbers");
-    is.param("tolerance", &Params::tolerance).unit("s").range(1e-9, 10)
+    is.input("trajectories", &In::trajectories,
+             "any number of trajectories; numbers are named after the label");
+    is.output("metrics", &Out::metrics,
+              "for each trajectory ate, ate_max, rpe_translation, rpe_rotation, displacement_x, "
+              "displacement_y");
+    is.param("truth", &Params::truth)
+        .doc("TUM file with the true poses; none: a note, and no numbers");
+    is.param("tolerance", &Params::tolerance)
+        .unit("s")
+        .range(1e-9, 10)
         .doc("poses whose stamps differ by less belong together");
-    is.param("over", &Params::over).unit("m").range(1e-3, 1e6)
+    is.param("over", &Params::over)
+        .unit("m")
+        .range(1e-3, 1e6)
         .doc("length of true path over which the relative error is taken");
   }
 

@@ -25,16 +25,16 @@ Trajectory curve(std::size_t frames, double first_stamp = 100) {
 
 class MeasureTrajectoryTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::ofstream(file_) << tum_text(curve(50));
-  }
+  void SetUp() override { std::ofstream(file_) << tum_text(curve(50)); }
   void TearDown() override { std::filesystem::remove(file_); }
 
-  Metrics measured(const std::vector<std::pair<std::string, Trajectory>>& trajectories, bool with_truth = true) {
+  Metrics measured(const std::vector<std::pair<std::string, Trajectory>>& trajectories,
+                   bool with_truth = true) {
     const Step& step = *plumb_module()->steps[0];
     PortInput input;
     input.wired = true;
-    for (const auto& [label, trajectory] : trajectories) input.several.push_back({label, any_value(trajectory)});
+    for (const auto& [label, trajectory] : trajectories)
+      input.several.push_back({label, any_value(trajectory)});
     ParameterValues values;
     if (with_truth) values["truth"] = file_.string();
     PortOutput output;
@@ -59,7 +59,8 @@ TEST_F(MeasureTrajectoryTest, FindsNoErrorInAMovedTruth) {
 
 TEST_F(MeasureTrajectoryTest, NamesNumbersByTheirLabels) {
   auto bent = curve(50);
-  for (auto& pose : bent.T_world_frame) pose.translation.y() += 0.001 * pose.translation.x() * pose.translation.x();
+  for (auto& pose : bent.T_world_frame)
+    pose.translation.y() += 0.001 * pose.translation.x() * pose.translation.x();
   const auto metrics = measured({{"before", bent}, {"after", curve(50)}});
   ASSERT_EQ(metrics.numbers.size(), 12u);
   EXPECT_EQ(metrics.numbers[0].name, "before.ate");
@@ -69,7 +70,8 @@ TEST_F(MeasureTrajectoryTest, NamesNumbersByTheirLabels) {
 }
 
 TEST_F(MeasureTrajectoryTest, GivesTheDisplacementAlongTheTruthsAxesFromTheFirstPoseOn) {
-  // Seen from the first pose the k-th position lies k * 1 mm too far along x and k * 2 mm too little along y.
+  // Seen from the first pose the k-th position lies k * 1 mm too far along x and k * 2 mm too
+  // little along y.
   auto bent = curve(50);
   const Pose motion(exp_rotation({0, 0, -2}), {30, -20, 0});
   for (std::size_t k = 0; k < 50; ++k) {

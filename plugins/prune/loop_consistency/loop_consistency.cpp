@@ -13,15 +13,22 @@ struct Comparison {
   bool agree;
 };
 
-/// A comparison tells something where it is no coarser than so many times what two loops alone allow.
+/// A comparison tells something where it is no coarser than so many times what two loops alone
+/// allow.
 constexpr double informative = 8;
 
 class Judge {
  public:
   Judge(const std::vector<Loop>& loops, const Poses& poses, const ConsistencyOptions& options)
-      : loops_(loops), poses_(poses), options_(options), path_(poses.size(), 0), verdicts_(loops.size(), LoopVerdict::kept) {
+      : loops_(loops),
+        poses_(poses),
+        options_(options),
+        path_(poses.size(), 0),
+        verdicts_(loops.size(), LoopVerdict::kept) {
     for (std::size_t k = 1; k < poses.size(); ++k)
-      path_[k] = path_[k - 1] + (poses.T_world_segment[k].translation - poses.T_world_segment[k - 1].translation).norm();
+      path_[k] =
+          path_[k - 1] +
+          (poses.T_world_segment[k].translation - poses.T_world_segment[k - 1].translation).norm();
   }
 
   std::vector<LoopVerdict> run() && {
@@ -40,17 +47,22 @@ class Judge {
   bool fits_odometry(const Loop& loop) const {
     const Pose error = loop.T_i_j.inverse() * poses_.relative(loop.i, loop.j);
     const double length = path(loop.i, loop.j);
-    // The way there and back swings round the farthest point between the ends, hence half of the path as the lever.
-    const double position = std::hypot(loop.sigma_translation, options_.drift.position(length, 0.5 * std::min(length, 2 * extent(loop))));
+    // The way there and back swings round the farthest point between the ends, hence half of the
+    // path as the lever.
+    const double position =
+        std::hypot(loop.sigma_translation,
+                   options_.drift.position(length, 0.5 * std::min(length, 2 * extent(loop))));
     const double rotation = std::hypot(loop.sigma_rotation, options_.drift.rotation(length));
-    return error.translation.norm() <= options_.max_deviation * position && angle(error) <= options_.max_deviation * rotation;
+    return error.translation.norm() <= options_.max_deviation * position &&
+           angle(error) <= options_.max_deviation * rotation;
   }
 
   /// [m] the farthest that the path between the ends leads away from them.
   double extent(const Loop& loop) const {
     double most = 0;
     const std::uint32_t step = std::max<std::uint32_t>(1, (loop.j - loop.i) / 32);
-    for (std::uint32_t k = loop.i; k < loop.j; k += step) most = std::max(most, distance(loop.i, k));
+    for (std::uint32_t k = loop.i; k < loop.j; k += step)
+      most = std::max(most, distance(loop.i, k));
     return most;
   }
 
@@ -58,23 +70,29 @@ class Judge {
     return path(a.i, b.i) <= options_.neighbourhood && path(a.j, b.j) <= options_.neighbourhood;
   }
 
-  /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the poses between exact. Nothing where so much path lies
-  /// between them that it could not tell.
+  /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the
+  /// poses between exact. Nothing where so much path lies between them that it could not tell.
   std::optional<bool> agree(const Loop& a, const Loop& b) const {
-    const Pose cycle = a.T_i_j * poses_.relative(a.j, b.j) * b.T_i_j.inverse() * poses_.relative(b.i, a.i);
+    const Pose cycle =
+        a.T_i_j * poses_.relative(a.j, b.j) * b.T_i_j.inverse() * poses_.relative(b.i, a.i);
     const double at_i = path(a.i, b.i), at_j = path(a.j, b.j);
     const double lever = distance(a.j, b.j) + distance(a.i, b.i);
-    const double rotation = std::sqrt(std::pow(a.sigma_rotation, 2) + std::pow(b.sigma_rotation, 2) +
-                                      std::pow(options_.drift.rotation(at_i), 2) + std::pow(options_.drift.rotation(at_j), 2));
-    const double position = std::sqrt(std::pow(a.sigma_translation, 2) + std::pow(b.sigma_translation, 2) +
-                                      std::pow(options_.drift.position(at_i, distance(a.i, b.i)), 2) +
-                                      std::pow(options_.drift.position(at_j, distance(a.j, b.j)), 2) +
-                                      std::pow(std::hypot(a.sigma_rotation, b.sigma_rotation) * lever, 2));
-    if (position > informative * std::hypot(a.sigma_translation, b.sigma_translation)) return std::nullopt;
-    return cycle.translation.norm() <= options_.max_deviation * position && angle(cycle) <= options_.max_deviation * rotation;
+    const double rotation = std::sqrt(
+        std::pow(a.sigma_rotation, 2) + std::pow(b.sigma_rotation, 2) +
+        std::pow(options_.drift.rotation(at_i), 2) + std::pow(options_.drift.rotation(at_j), 2));
+    const double position =
+        std::sqrt(std::pow(a.sigma_translation, 2) + std::pow(b.sigma_translation, 2) +
+                  std::pow(options_.drift.position(at_i, distance(a.i, b.i)), 2) +
+                  std::pow(options_.drift.position(at_j, distance(a.j, b.j)), 2) +
+                  std::pow(std::hypot(a.sigma_rotation, b.sigma_rotation) * lever, 2));
+    if (position > informative * std::hypot(a.sigma_translation, b.sigma_translation))
+      return std::nullopt;
+    return cycle.translation.norm() <= options_.max_deviation * position &&
+           angle(cycle) <= options_.max_deviation * rotation;
   }
 
-  /// All pairs of loops that lie near each other: loops in order of i, so that only a window of them is looked at.
+  /// All pairs of loops that lie near each other: loops in order of i, so that only a window of
+  /// them is looked at.
   std::vector<Comparison> comparisons() const {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < loops_.size(); ++k)
@@ -119,7 +137,8 @@ class Judge {
     }
     for (std::uint32_t k = 0; k < loops_.size(); ++k)
       if (verdicts_[k] == LoopVerdict::kept && agreed[k] == 0 &&
-          options_.drift.position(path(loops_[k].i, loops_[k].j), extent(loops_[k])) > options_.max_alone_position)
+          options_.drift.position(path(loops_[k].i, loops_[k].j), extent(loops_[k])) >
+              options_.max_alone_position)
         verdicts_[k] = LoopVerdict::alone;
   }
 
@@ -132,13 +151,17 @@ class Judge {
 
 }  // namespace
 
-double DriftModel::rotation(double path) const { return rotation_per_metre * std::sqrt(path * std::min(path, memory)); }
-
-double DriftModel::position(double path, double distance) const {
-  return std::hypot(translation_per_metre * std::sqrt(path * std::min(path, memory)), rotation(path) * distance / std::sqrt(3.0));
+double DriftModel::rotation(double path) const {
+  return rotation_per_metre * std::sqrt(path * std::min(path, memory));
 }
 
-std::vector<LoopVerdict> judge_loops(const std::vector<Loop>& loops, const Poses& poses, const ConsistencyOptions& options) {
+double DriftModel::position(double path, double distance) const {
+  return std::hypot(translation_per_metre * std::sqrt(path * std::min(path, memory)),
+                    rotation(path) * distance / std::sqrt(3.0));
+}
+
+std::vector<LoopVerdict> judge_loops(const std::vector<Loop>& loops, const Poses& poses,
+                                     const ConsistencyOptions& options) {
   return Judge(loops, poses, options).run();
 }
 

@@ -18,7 +18,8 @@ Eigen::Vector3d gauss3(std::mt19937& random, double sigma) {
   return {x, y, z};
 }
 
-// ---- what the poses can have drifted ----------------------------------------------------------------------------------------
+// ---- what the poses can have drifted
+// ----------------------------------------------------------------------------------------
 
 TEST(DriftModel, GrowsWithThePathWithinItsMemoryAndWithTheRootBeyond) {
   const DriftModel drift{0.01, 0.001, 100};
@@ -30,7 +31,8 @@ TEST(DriftModel, GrowsWithThePathWithinItsMemoryAndWithTheRootBeyond) {
   EXPECT_DOUBLE_EQ(drift.position(0, 1000), 0);
 }
 
-/// The judge walks straight on: the errors of the heading and of the length stay the same for 100 m, then others come.
+/// The judge walks straight on: the errors of the heading and of the length stay the same for 100
+/// m, then others come.
 TEST(DriftModel, IsTheDeviationOfWalksWhoseErrorsLastForTheMemory) {
   const DriftModel drift{0.01, 0.0005, 100};
   std::mt19937 random(1);
@@ -51,10 +53,12 @@ TEST(DriftModel, IsTheDeviationOfWalksWhoseErrorsLastForTheMemory) {
     places += (along * along + across * across) / walks;
   }
   EXPECT_NEAR(std::sqrt(headings), drift.rotation(length), 0.05 * drift.rotation(length));
-  EXPECT_NEAR(std::sqrt(places), drift.position(length, length), 0.05 * drift.position(length, length));
+  EXPECT_NEAR(std::sqrt(places), drift.position(length, length),
+              0.05 * drift.position(length, length));
 }
 
-// ---- which loops are kept ---------------------------------------------------------------------------------------------------
+// ---- which loops are kept
+// ---------------------------------------------------------------------------------------------------
 
 /// Two laps round a square of 4 x 12 segments, 10 m apart, with drift as a car's odometry has it.
 struct Drive {
@@ -65,13 +69,15 @@ struct Drive {
 Drive two_laps(std::uint32_t seed, double drift = 1) {
   std::mt19937 random(seed);
   Drive drive;
-  const Pose ahead(Eigen::Quaterniond::Identity(), {10, 0, 0}), corner(exp_rotation({0, 0, M_PI / 2}), {10, 0, 0});
+  const Pose ahead(Eigen::Quaterniond::Identity(), {10, 0, 0}),
+      corner(exp_rotation({0, 0, M_PI / 2}), {10, 0, 0});
   drive.truth.T_world_segment.resize(1);
   drive.drifted.T_world_segment.resize(1);
   const Eigen::Vector3d slow = gauss3(random, 0.0002 * drift);  // [rad/m], the same all the way
   for (std::uint32_t k = 1; k < 2 * Drive::lap; ++k) {
     const Pose& motion = k % 12 == 0 ? corner : ahead;
-    const Pose error(exp_rotation(10 * slow + gauss3(random, 0.001 * drift)), gauss3(random, 0.03 * drift));
+    const Pose error(exp_rotation(10 * slow + gauss3(random, 0.001 * drift)),
+                     gauss3(random, 0.03 * drift));
     drive.truth.T_world_segment.push_back(drive.truth.T_world_segment.back() * motion);
     drive.drifted.T_world_segment.push_back(drive.drifted.T_world_segment.back() * motion * error);
   }
@@ -80,14 +86,17 @@ Drive two_laps(std::uint32_t seed, double drift = 1) {
 
 /// The loop that a registration of i and j gives where all is well.
 Loop right_loop(const Drive& drive, std::uint32_t i, std::uint32_t j, std::mt19937& random) {
-  return {i, j, drive.truth.relative(i, j) * Pose(exp_rotation(gauss3(random, 0.001)), gauss3(random, 0.03))};
+  return {
+      i, j,
+      drive.truth.relative(i, j) * Pose(exp_rotation(gauss3(random, 0.001)), gauss3(random, 0.03))};
 }
 
 /// From every second segment of the first lap to the second one.
 std::vector<Loop> right_loops(const Drive& drive, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<Loop> loops;
-  for (std::uint32_t k = 0; k < Drive::lap; k += 2) loops.push_back(right_loop(drive, k, k + Drive::lap, random));
+  for (std::uint32_t k = 0; k < Drive::lap; k += 2)
+    loops.push_back(right_loop(drive, k, k + Drive::lap, random));
   return loops;
 }
 
@@ -120,12 +129,14 @@ TEST(LoopConsistency, DropsLoopsWithinTheDriftThatTheirNeighboursContradict) {
     auto loops = right_loops(drive, seed);
     std::mt19937 random(seed);
     std::vector<std::size_t> wrong;
-    for (std::size_t k = 1; k < loops.size(); k += 4) {  // a quarter, each wrong in a way of its own
+    for (std::size_t k = 1; k < loops.size();
+         k += 4) {  // a quarter, each wrong in a way of its own
       loops[k].T_i_j.translation += 20 * gauss3(random, 1).normalized();
       wrong.push_back(k);
     }
     const auto verdicts = judge_loops(loops, drive.drifted, {});
-    for (const auto k : wrong) EXPECT_EQ(verdicts[k], LoopVerdict::against_loops) << "seed " << seed << ", loop " << k;
+    for (const auto k : wrong)
+      EXPECT_EQ(verdicts[k], LoopVerdict::against_loops) << "seed " << seed << ", loop " << k;
     EXPECT_EQ(count(verdicts, LoopVerdict::kept), loops.size() - wrong.size()) << seed;
   }
 }
@@ -154,13 +165,15 @@ TEST(LoopConsistency, DropsALoneLoopWhereTheDriftMayBeLarge) {
 TEST(LoopConsistency, KeepsALoneLoopOverAShortWay) {
   const Drive drive = two_laps(3);
   std::mt19937 random(3);
-  EXPECT_THAT(judge_loops({right_loop(drive, 4, 10, random)}, drive.drifted, {}), testing::ElementsAre(LoopVerdict::kept));
+  EXPECT_THAT(judge_loops({right_loop(drive, 4, 10, random)}, drive.drifted, {}),
+              testing::ElementsAre(LoopVerdict::kept));
 }
 
 TEST(LoopConsistency, KeepsTwoLoopsThatConfirmEachOther) {
   const Drive drive = two_laps(4);
   std::mt19937 random(4);
-  EXPECT_THAT(judge_loops({right_loop(drive, 4, 52, random), right_loop(drive, 6, 54, random)}, drive.drifted, {}),
+  EXPECT_THAT(judge_loops({right_loop(drive, 4, 52, random), right_loop(drive, 6, 54, random)},
+                          drive.drifted, {}),
               testing::ElementsAre(LoopVerdict::kept, LoopVerdict::kept));
 }
 
@@ -176,7 +189,8 @@ TEST(LoopConsistency, LetsLoopsOfOtherPlacesSayNothing) {
   const Drive drive = two_laps(5);
   std::mt19937 random(5);
   std::vector<Loop> loops;
-  for (std::uint32_t k = 0; k < 4; ++k) loops.push_back(right_loop(drive, k, k + Drive::lap, random));
+  for (std::uint32_t k = 0; k < 4; ++k)
+    loops.push_back(right_loop(drive, k, k + Drive::lap, random));
   ConsistencyOptions options;
   options.neighbourhood = 60;
   const auto before = judge_loops(loops, drive.drifted, options);
@@ -193,7 +207,8 @@ TEST(LoopConsistency, DoesNotDependOnWhereTheWorldIsNorOnTheOrderOfLoops) {
   const Drive drive = two_laps(6);
   auto loops = right_loops(drive, 6);
   std::mt19937 random(6);
-  for (std::size_t k = 2; k < loops.size(); k += 5) loops[k].T_i_j.translation += 20 * gauss3(random, 1).normalized();
+  for (std::size_t k = 2; k < loops.size(); k += 5)
+    loops[k].T_i_j.translation += 20 * gauss3(random, 1).normalized();
   const auto verdicts = judge_loops(loops, drive.drifted, {});
 
   Poses elsewhere;
@@ -207,7 +222,8 @@ TEST(LoopConsistency, DoesNotDependOnWhereTheWorldIsNorOnTheOrderOfLoops) {
   std::vector<Loop> mixed;
   for (const auto k : order) mixed.push_back(loops[k]);
   const auto of_mixed = judge_loops(mixed, drive.drifted, {});
-  for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(of_mixed[k], verdicts[order[k]]) << order[k];
+  for (std::size_t k = 0; k < order.size(); ++k)
+    EXPECT_EQ(of_mixed[k], verdicts[order[k]]) << order[k];
 }
 
 /// Ten times as large with ten times the lengths, and angles per metre a tenth: the same verdicts.
@@ -215,7 +231,8 @@ TEST(LoopConsistency, HasNoLengthOfItsOwn) {
   const Drive drive = two_laps(7);
   auto loops = right_loops(drive, 7);
   std::mt19937 random(7);
-  for (std::size_t k = 2; k < loops.size(); k += 5) loops[k].T_i_j.translation += 20 * gauss3(random, 1).normalized();
+  for (std::size_t k = 2; k < loops.size(); k += 5)
+    loops[k].T_i_j.translation += 20 * gauss3(random, 1).normalized();
   const auto verdicts = judge_loops(loops, drive.drifted, {});
   Poses large = drive.drifted;
   for (auto& T : large.T_world_segment) T.translation *= 10;
@@ -231,7 +248,8 @@ TEST(LoopConsistency, JudgesNothingWhereThereIsNothing) {
   EXPECT_TRUE(judge_loops({}, two_laps(1).drifted, {}).empty());
 }
 
-// ---- the step ---------------------------------------------------------------------------------------------------------------
+// ---- the step
+// ---------------------------------------------------------------------------------------------------------------
 
 struct Registered {
   std::vector<Registration> registrations;
@@ -305,7 +323,8 @@ TEST(PruneLoopConsistency, GivesTheKeptLoopsAndAReasonForEach) {
   EXPECT_EQ(metrics.edges[17].fate, "not registered");
   // What is left between a kept loop and the poses is the drift.
   const Loop& last = loops.back();
-  const double drift = (last.T_i_j.inverse() * drive.drifted.relative(last.i, last.j)).translation.norm();
+  const double drift =
+      (last.T_i_j.inverse() * drive.drifted.relative(last.i, last.j)).translation.norm();
   EXPECT_NEAR(metrics.edges.back().residual, drift, 1e-12);
 }
 
@@ -321,9 +340,11 @@ TEST(PruneLoopConsistency, AddsItsOwnDeviationsToThoseOfTheRegistration) {
   const Vector6d before = all.registrations[0].information.diagonal();
   for (int a = 0; a < 6; ++a) {
     const double sigma = a < 3 ? 0.2 : 0.01, expected = 1 / (1 / before[a] + sigma * sigma);
-    EXPECT_NEAR(information(a, a), (a < 3 ? 1 : 4) * expected, 1e-9 * expected) << a;  // by q.vec, half the angle
+    EXPECT_NEAR(information(a, a), (a < 3 ? 1 : 4) * expected, 1e-9 * expected)
+        << a;  // by q.vec, half the angle
   }
-  EXPECT_LT((information - Matrix6d(information.diagonal().asDiagonal())).norm(), 1e-9 * information.norm());
+  EXPECT_LT((information - Matrix6d(information.diagonal().asDiagonal())).norm(),
+            1e-9 * information.norm());
 }
 
 TEST(PruneLoopConsistency, LeavesUnknownWhatTheRegistrationDoesNotKnow) {
@@ -343,7 +364,9 @@ TEST(PruneLoopConsistency, LeavesUnknownWhatTheRegistrationDoesNotKnow) {
 
 TEST(PruneLoopConsistency, KeepsNothingOfNoLoops) {
   TestContext context;
-  EXPECT_TRUE(pruning(registered({}, 96), two_laps(1).drifted).run<Relations>("relations", context).relative.empty());
+  EXPECT_TRUE(pruning(registered({}, 96), two_laps(1).drifted)
+                  .run<Relations>("relations", context)
+                  .relative.empty());
   EXPECT_EQ(context.counts["loops kept"], 0u);
 }
 
@@ -356,7 +379,9 @@ TEST(PruneLoopConsistency, MultipliesItsLengthsByTheScale) {
   for (auto& T : small.T_world_segment) T.translation *= 0.1;
   for (auto& loop : loops) loop.T_i_j.translation *= 0.1;
   TestContext context;
-  const auto metrics = pruning(registered(loops, 96), small).with("scale", Metrics().add("scale", 0.1, "")).run<Metrics>("metrics", context);
+  const auto metrics = pruning(registered(loops, 96), small)
+                           .with("scale", Metrics().add("scale", 0.1, ""))
+                           .run<Metrics>("metrics", context);
   EXPECT_EQ(metrics.edges[11].fate, "rejected: other loops of the place contradict it");
   EXPECT_EQ(number(metrics, "loops_kept"), static_cast<double>(loops.size() - 1));
 }
@@ -369,7 +394,9 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
     pruning(registered(right_loops(two_laps(1), 1), 96), few).run<Relations>("relations", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "a loop names segment 48, but there are 40 poses: wire poses of the same segments");
+    EXPECT_STREQ(
+        e.what(),
+        "a loop names segment 48, but there are 40 poses: wire poses of the same segments");
   }
 }
 

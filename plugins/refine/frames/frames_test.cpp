@@ -14,12 +14,15 @@ struct Point {
 using Surfaces = std::vector<Point>;
 
 /// A rectangle of the plane through `origin`, a point each `spacing` [m] along u and v.
-void add_plane(Surfaces& surfaces, const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double spacing) {
+void add_plane(Surfaces& surfaces, const Eigen::Vector3d& origin, const Eigen::Vector3d& u,
+               const Eigen::Vector3d& v, double spacing) {
   const Eigen::Vector3d normal = u.cross(v).normalized();
   for (double a = 0; a <= u.norm() + 1e-9; a += spacing)
-    for (double b = 0; b <= v.norm() + 1e-9; b += spacing) surfaces.push_back({origin + a * u.normalized() + b * v.normalized(), normal});
+    for (double b = 0; b <= v.norm() + 1e-9; b += spacing)
+      surfaces.push_back({origin + a * u.normalized() + b * v.normalized(), normal});
 }
-/// A corner: the floor and two walls of 8 m, 4 m high. `margin` [m] keeps points away from where planes meet.
+/// A corner: the floor and two walls of 8 m, 4 m high. `margin` [m] keeps points away from where
+/// planes meet.
 Surfaces corner(double spacing, double margin) {
   Surfaces s;
   const double m = margin;
@@ -67,7 +70,8 @@ TEST(RefineFrame, PutsAFrameBackOntoTheSurfacesThatItSaw) {
   const Cloud cloud = seen_by_frame(corner(0.31, 0.4), truth);
   FrameOptions all = loose();
   all.max_points = 100000;
-  const auto pose = registered(cloud, truth * off, {target_of(corner(0.1, 0), T_world_segment)}, all);
+  const auto pose =
+      registered(cloud, truth * off, {target_of(corner(0.1, 0), T_world_segment)}, all);
   EXPECT_LT(distance(pose.T_world_frame, truth), 1e-3);
   EXPECT_LT(turn(pose.T_world_frame, truth), 3e-4);
   EXPECT_GT(pose.pairs, cloud.size() * 9 / 10);
@@ -78,7 +82,8 @@ TEST(RefineFrame, FindsTheSameAtUtmCoordinates) {
   const Cloud cloud = seen_by_frame(corner(0.31, 0.4), truth);
   const Target here = target_of(corner(0.1, 0));
   const auto near_origin = registered(cloud, truth * off, {here}, {});
-  const auto far = registered(cloud, utm * truth * off, {{here.segment, utm * here.T_world_segment}}, {});
+  const auto far =
+      registered(cloud, utm * truth * off, {{here.segment, utm * here.T_world_segment}}, {});
   EXPECT_LT(distance(far.T_world_frame, utm * near_origin.T_world_frame), 1e-4);
   EXPECT_LT(turn(far.T_world_frame, utm * near_origin.T_world_frame), 1e-5);
 }
@@ -92,14 +97,16 @@ TEST(RefineFrame, LeavesADirectionAloneThatItsPointsDoNotSee) {
     add_plane(*s, {-half, 1, 0.3}, {2 * half, 0, 0}, {0, 0, 1.5}, spacing);
   }
   const Pose start(Eigen::Quaterniond::Identity(), {0.2, 0.06, -0.05});  // 0.2 m along the corridor
-  const auto pose = registered(seen_by_frame(seen, Pose()), start, {target_of(corridor)}, loose()).T_world_frame;
+  const auto pose =
+      registered(seen_by_frame(seen, Pose()), start, {target_of(corridor)}, loose()).T_world_frame;
   EXPECT_NEAR(pose.translation.x(), 0.2, 1e-3);
   EXPECT_NEAR(pose.translation.y(), 0, 2e-3);
   EXPECT_NEAR(pose.translation.z(), 0, 2e-3);
 }
 
 TEST(RefineFrame, StopsBetweenItsPoseAndTheSurfacesByTheirWeights) {
-  // A floor of many points, together max_weight / noise^2 firm, and the frame 0.2 m above it: z is the mean of both by their information.
+  // A floor of many points, together max_weight / noise^2 firm, and the frame 0.2 m above it: z is
+  // the mean of both by their information.
   Surfaces floor, seen;
   add_plane(floor, {-6, -6, 0}, {12, 0, 0}, {0, 12, 0}, 0.1);
   add_plane(seen, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0.25);
@@ -108,8 +115,10 @@ TEST(RefineFrame, StopsBetweenItsPoseAndTheSurfacesByTheirWeights) {
     FrameOptions options;
     options.max_points = 100000;
     options.translation_sigma = sigma;
-    const double surface = options.max_weight / (options.noise * options.noise), prior = 1 / (sigma * sigma);
-    const auto pose = registered(seen_by_frame(seen, Pose()), start, {target_of(floor)}, options).T_world_frame;
+    const double surface = options.max_weight / (options.noise * options.noise),
+                 prior = 1 / (sigma * sigma);
+    const auto pose =
+        registered(seen_by_frame(seen, Pose()), start, {target_of(floor)}, options).T_world_frame;
     EXPECT_NEAR(pose.translation.z(), 0.2 * prior / (prior + surface), 1e-4) << sigma;
     EXPECT_LT(turn(pose, start), 1e-4);
   }
@@ -121,7 +130,9 @@ TEST(RefineFrame, SettlesBetweenTargetsThatDisagree) {
   add_plane(seen, {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, 0.25);
   const Target low = target_of(floor);
   const Pose higher(Eigen::Quaterniond::Identity(), {0, 0, 0.1});
-  const auto pose = registered(seen_by_frame(seen, Pose()), {Eigen::Quaterniond::Identity(), {0, 0, 0.08}}, {low, {low.segment, higher}}, loose());
+  const auto pose =
+      registered(seen_by_frame(seen, Pose()), {Eigen::Quaterniond::Identity(), {0, 0, 0.08}},
+                 {low, {low.segment, higher}}, loose());
   EXPECT_NEAR(pose.T_world_frame.translation.z(), 0.05, 2e-3);
   EXPECT_GT(pose.pairs, 1000u) << "each point counts once for each target";
 }
@@ -130,32 +141,41 @@ TEST(RefineFrame, StaysWhereItFindsFewerThanThirtyPairs) {
   const Pose start = truth * off;
   Surfaces few = corner(0.31, 0.4);
   few.resize(29);
-  const auto pose = registered(seen_by_frame(few, truth), start, {target_of(corner(0.1, 0))}, loose());
+  const auto pose =
+      registered(seen_by_frame(few, truth), start, {target_of(corner(0.1, 0))}, loose());
   EXPECT_LT(pose.pairs, 30u);
   EXPECT_EQ(pose.T_world_frame.translation, start.translation);
   const Cloud cloud = seen_by_frame(corner(0.31, 0.4), truth);
   EXPECT_EQ(registered(cloud, start, {}, loose()).pairs, 0u);
   EXPECT_EQ(registered(cloud, start, {{std::make_shared<Segment>(), Pose()}}, loose()).pairs, 0u);
-  EXPECT_EQ(registered({}, start, {target_of(corner(0.1, 0))}, loose()).T_world_frame.translation, start.translation);
+  EXPECT_EQ(registered({}, start, {target_of(corner(0.1, 0))}, loose()).T_world_frame.translation,
+            start.translation);
 }
 
 TEST(RefineFrame, LeavesOutPointsOfUnknownNormal) {
   Segment unknown = seen_as_segment(corner(0.1, 0), Pose());
-  std::ranges::fill(unknown.cloud.nx, 0.0f), std::ranges::fill(unknown.cloud.ny, 0.0f), std::ranges::fill(unknown.cloud.nz, 0.0f);
-  EXPECT_EQ(registered(seen_by_frame(corner(0.31, 0.4), truth), truth, {{std::make_shared<Segment>(unknown), Pose()}}, loose()).pairs, 0u);
+  std::ranges::fill(unknown.cloud.nx, 0.0f), std::ranges::fill(unknown.cloud.ny, 0.0f),
+      std::ranges::fill(unknown.cloud.nz, 0.0f);
+  EXPECT_EQ(registered(seen_by_frame(corner(0.31, 0.4), truth), truth,
+                       {{std::make_shared<Segment>(unknown), Pose()}}, loose())
+                .pairs,
+            0u);
 }
 
 TEST(RefineFrame, AsksNoMoreThanTheMostPoints) {
   FrameOptions options = loose();
   options.max_points = 200;
-  const auto pose = registered(seen_by_frame(corner(0.1, 0.4), truth), truth * off, {target_of(corner(0.1, 0))}, options);
+  const auto pose = registered(seen_by_frame(corner(0.1, 0.4), truth), truth * off,
+                               {target_of(corner(0.1, 0))}, options);
   EXPECT_LE(pose.pairs, 200u);
   EXPECT_LT(distance(pose.T_world_frame, truth), 5e-3);
 }
 
-// ---- the step ---------------------------------------------------------------------------------------------------------------------
+// ---- the step
+// ---------------------------------------------------------------------------------------------------------------------
 
-/// Three segments of two frames each in one corner. The frames of the middle one stand off, and its own cloud with them.
+/// Three segments of two frames each in one corner. The frames of the middle one stand off, and its
+/// own cloud with them.
 struct Walk {
   Trajectory straight, trajectory;
   std::vector<Frame> frames;
@@ -183,11 +203,16 @@ struct Walk {
   }
   StepRun step() const {
     StepRun run(*plumb_module());
-    run.with("trajectory", trajectory).each("frames", frames).each("segments", segments).with("poses", poses);
+    run.with("trajectory", trajectory)
+        .each("frames", frames)
+        .each("segments", segments)
+        .with("poses", poses);
     run.set("translation_sigma", 10.0).set("rotation_sigma", 1.0);
     return run;
   }
-  Trajectory refined(TestContext& context) const { return step().run<Trajectory>("trajectory", context); }
+  Trajectory refined(TestContext& context) const {
+    return step().run<Trajectory>("trajectory", context);
+  }
   std::string refusal() const {
     TestContext context;
     try {
@@ -208,7 +233,9 @@ TEST(RefineFrames, RegistersAFrameToTheSegmentsRoundItsOwnAndNotToThatOne) {
     EXPECT_LT(distance(refined.T_world_frame[f], walk.straight.T_world_frame[f]), 2e-3);
   }
   EXPECT_EQ(refined.stamps, walk.trajectory.stamps);
-  EXPECT_EQ(context.counts["frames that see too little of the segments round them, left where they were"], 0u);
+  EXPECT_EQ(
+      context.counts["frames that see too little of the segments round them, left where they were"],
+      0u);
 }
 
 TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
@@ -217,10 +244,14 @@ TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
   walk.segments[1].range.first = 2, walk.segments[1].range.end = 4;
   walk.trajectory.T_world_frame[0].translation.z() += 0.1;
   TestContext context;
-  const auto one = walk.step().set("neighbours", std::int64_t(1)).run<Trajectory>("trajectory", context);
+  const auto one =
+      walk.step().set("neighbours", std::int64_t(1)).run<Trajectory>("trajectory", context);
   EXPECT_EQ(one.T_world_frame[0].translation, walk.trajectory.T_world_frame[0].translation);
-  EXPECT_EQ(context.counts["frames that see too little of the segments round them, left where they were"], 4u);
-  const auto two = walk.step().set("neighbours", std::int64_t(2)).run<Trajectory>("trajectory", context);
+  EXPECT_EQ(
+      context.counts["frames that see too little of the segments round them, left where they were"],
+      4u);
+  const auto two =
+      walk.step().set("neighbours", std::int64_t(2)).run<Trajectory>("trajectory", context);
   EXPECT_LT(distance(two.T_world_frame[0], walk.straight.T_world_frame[0]), 2e-3);
 }
 
@@ -230,8 +261,11 @@ TEST(RefineFrames, LeavesTheFramesOfOneSegmentAloneWhereTheyWereAndCountsThem) {
   walk.poses.T_world_segment.resize(1);
   TestContext context;
   const auto refined = walk.refined(context);
-  for (int f = 0; f < 6; ++f) EXPECT_EQ(refined.T_world_frame[f].translation, walk.trajectory.T_world_frame[f].translation);
-  EXPECT_EQ(context.counts["frames that see too little of the segments round them, left where they were"], 2u);
+  for (int f = 0; f < 6; ++f)
+    EXPECT_EQ(refined.T_world_frame[f].translation, walk.trajectory.T_world_frame[f].translation);
+  EXPECT_EQ(
+      context.counts["frames that see too little of the segments round them, left where they were"],
+      2u);
 }
 
 TEST(RefineFrames, RefusesFramesPosesAndSegmentsThatDoNotBelongTogether) {
@@ -247,7 +281,8 @@ TEST(RefineFrames, RefusesFramesPosesAndSegmentsThatDoNotBelongTogether) {
 
 TEST(RefineFrames, RefusesSegmentsWithoutNormalsAndNamesTheCure) {
   Walk walk;
-  for (auto& segment : walk.segments) segment.cloud.nx.clear(), segment.cloud.ny.clear(), segment.cloud.nz.clear();
+  for (auto& segment : walk.segments)
+    segment.cloud.nx.clear(), segment.cloud.ny.clear(), segment.cloud.nz.clear();
   EXPECT_THAT(walk.refusal(), HasSubstr("estimate.normals"));
 }
 
@@ -257,7 +292,8 @@ TEST(RefineFrames, MultipliesTheDistanceOfACorrespondenceByAScale) {
     TestContext context;
     auto step = walk.step().set("max_distance", 0.02).set("last_distance", 0.02);
     step.with("scale", Metrics().add("scale", scale, ""));
-    return distance(step.run<Trajectory>("trajectory", context).T_world_frame[2], walk.straight.T_world_frame[2]);
+    return distance(step.run<Trajectory>("trajectory", context).T_world_frame[2],
+                    walk.straight.T_world_frame[2]);
   };
   EXPECT_GT(error(1), 0.05);
   EXPECT_LT(error(20), 2e-3);

@@ -24,10 +24,12 @@ struct Normal {
   }
 };
 
-void add_pairs(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_frame, const Target& target, double max, double noise, Normal& sums) {
+void add_pairs(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_frame,
+               const Target& target, double max, double noise, Normal& sums) {
   const Pose T_segment_frame = target.T_world_segment.inverse() * T_world_frame;
   const Motion motion(T_segment_frame);
-  const Eigen::Matrix3d R_world_segment = target.T_world_segment.matrix(), R_frame = T_world_frame.matrix();
+  const Eigen::Matrix3d R_world_segment = target.T_world_segment.matrix(),
+                        R_frame = T_world_frame.matrix();
   const Cloud& cloud = target.segment->cloud;
   const SearchTree& tree = target.segment->tree();
   for (const auto& point : points) {
@@ -47,24 +49,31 @@ void add_pairs(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_f
 
 }  // namespace
 
-FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Target>& targets, const FrameOptions& options) {
+FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Target>& targets,
+                     const FrameOptions& options) {
   std::vector<Eigen::Vector3f> points;
   const std::size_t n = std::min<std::size_t>(cloud.size(), options.max_points);
   for (std::size_t k = 0; k < n; ++k) points.push_back(cloud.point(k * cloud.size() / n));
   Vector6d prior;
-  for (int axis = 0; axis < 6; ++axis) prior[axis] = std::pow(axis < 3 ? options.translation_sigma : options.rotation_sigma, -2);
+  for (int axis = 0; axis < 6; ++axis)
+    prior[axis] = std::pow(axis < 3 ? options.translation_sigma : options.rotation_sigma, -2);
 
   FramePose result{start, 0};
   for (std::uint32_t k = 0; k < options.iterations; ++k) {
-    const double along = options.iterations > 1 ? std::min(1.0, 2.0 * k / (options.iterations - 1)) : 1.0;
-    const double max = options.max_distance * std::pow(options.last_distance / options.max_distance, along);
+    const double along =
+        options.iterations > 1 ? std::min(1.0, 2.0 * k / (options.iterations - 1)) : 1.0;
+    const double max =
+        options.max_distance * std::pow(options.last_distance / options.max_distance, along);
     Normal sums;
     for (const auto& target : targets)
-      if (!target.segment->cloud.empty()) add_pairs(points, result.T_world_frame, target, max, options.noise, sums);
+      if (!target.segment->cloud.empty())
+        add_pairs(points, result.T_world_frame, target, max, options.noise, sums);
     result.pairs = sums.pairs;
     if (sums.pairs < 30) return {start, sums.pairs};
-    const double unit = std::min(1.0, options.max_weight / sums.weight) / (options.noise * options.noise);
-    const Eigen::Vector3d turned = log_rotation(start.rotation.conjugate() * result.T_world_frame.rotation);
+    const double unit =
+        std::min(1.0, options.max_weight / sums.weight) / (options.noise * options.noise);
+    const Eigen::Vector3d turned =
+        log_rotation(start.rotation.conjugate() * result.T_world_frame.rotation);
     Vector6d moved;
     for (int axis = 0; axis < 3; ++axis) {
       moved[axis] = result.T_world_frame.translation[axis] - start.translation[axis];
@@ -74,8 +83,10 @@ FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Ta
     h.diagonal() += prior;
     const Vector6d g = unit * sums.g + prior.cwiseProduct(moved);
     const Vector6d step = -h.ldlt().solve(g);
-    result.T_world_frame = {(result.T_world_frame.rotation * exp_rotation(Eigen::Vector3d(step[3], step[4], step[5]))).normalized(),
-                            result.T_world_frame.translation + Eigen::Vector3d(step[0], step[1], step[2])};
+    result.T_world_frame = {
+        (result.T_world_frame.rotation * exp_rotation(Eigen::Vector3d(step[3], step[4], step[5])))
+            .normalized(),
+        result.T_world_frame.translation + Eigen::Vector3d(step[0], step[1], step[2])};
     if (along >= 1 && step.head<3>().norm() < 1e-3 && step.tail<3>().norm() < 1e-4) break;
   }
   return result;

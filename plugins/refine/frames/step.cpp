@@ -23,55 +23,87 @@ struct RefineFrames : WholeStep {
 
   static void describe(Declaration<RefineFrames>& is) {
     is.name("refine.frames").version(1).source("ours; [Chen1992] point-to-plane ICP");
-    is.summary("Registers each frame to the segments before and after its own: takes out what the odometry erred within a segment.");
+    is.summary(
+        "Registers each frame to the segments before and after its own: takes out what the "
+        "odometry erred within a segment.");
     is.input("trajectory", &In::trajectory, "the poses of all frames, near the segments' poses");
     is.input("frames", &In::frames, "the clouds of all frames");
     is.input("segments", &In::segments, "the frames' segments, with normals");
     is.input("poses", &In::poses, "where the segments are, in the trajectory's world");
     is.scale(&In::scale);
     is.output("trajectory", &Out::trajectory, "the refined poses of all frames");
-    is.param("neighbours", &Params::neighbours).range(1, 100)
-        .doc("segments before and as many after its own that a frame is registered to; its own is left out, for it would hold the frame where it is");
-    is.param("max_distance", as_own(&FrameOptions::max_distance)).unit("m").range(1e-3, 100)
+    is.param("neighbours", &Params::neighbours)
+        .range(1, 100)
+        .doc(
+            "segments before and as many after its own that a frame is registered to; its own is "
+            "left out, for it would hold the frame where it is");
+    is.param("max_distance", as_own(&FrameOptions::max_distance))
+        .unit("m")
+        .range(1e-3, 100)
         .doc("farthest that two points of a correspondence may be apart, in the first iteration");
-    is.param("last_distance", as_own(&FrameOptions::last_distance)).unit("m").range(1e-3, 100).doc("the same in the last iteration");
+    is.param("last_distance", as_own(&FrameOptions::last_distance))
+        .unit("m")
+        .range(1e-3, 100)
+        .doc("the same in the last iteration");
     is.param("iterations", as_own(&FrameOptions::iterations)).range(1, 1000).doc("at most");
-    is.param("max_points", as_own(&FrameOptions::max_points)).range(30, 1e9).doc("points of a frame that are asked, evenly chosen");
-    is.param("noise", as_own(&FrameOptions::noise)).unit("m").range(1e-4, 100)
-        .doc("distance to the plane from which a correspondence counts less (Cauchy), and its standard deviation");
-    is.param("max_weight", as_own(&FrameOptions::max_weight)).range(1, 1e9).doc("the most that all correspondences of a frame weigh together");
-    is.param("translation_sigma", as_own(&FrameOptions::translation_sigma)).unit("m").range(1e-6, 1e3)
-        .doc("standard deviation of a frame's position as it comes: holds what its points do not see");
-    is.param("rotation_sigma", as_own(&FrameOptions::rotation_sigma)).unit("rad").range(1e-8, 10).doc("the same of its orientation");
+    is.param("max_points", as_own(&FrameOptions::max_points))
+        .range(30, 1e9)
+        .doc("points of a frame that are asked, evenly chosen");
+    is.param("noise", as_own(&FrameOptions::noise))
+        .unit("m")
+        .range(1e-4, 100)
+        .doc(
+            "distance to the plane from which a correspondence counts less (Cauchy), and its "
+            "standard deviation");
+    is.param("max_weight", as_own(&FrameOptions::max_weight))
+        .range(1, 1e9)
+        .doc("the most that all correspondences of a frame weigh together");
+    is.param("translation_sigma", as_own(&FrameOptions::translation_sigma))
+        .unit("m")
+        .range(1e-6, 1e3)
+        .doc(
+            "standard deviation of a frame's position as it comes: holds what its points do not "
+            "see");
+    is.param("rotation_sigma", as_own(&FrameOptions::rotation_sigma))
+        .unit("rad")
+        .range(1e-8, 10)
+        .doc("the same of its orientation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count || in.frames.size() != in.trajectory->size())
-      throw Error("there are " + std::to_string(count) + " segments, " + std::to_string(in.poses->size()) + " poses, " +
-                  std::to_string(in.frames.size()) + " frames and a trajectory of " + std::to_string(in.trajectory->size()) +
+      throw Error("there are " + std::to_string(count) + " segments, " +
+                  std::to_string(in.poses->size()) + " poses, " + std::to_string(in.frames.size()) +
+                  " frames and a trajectory of " + std::to_string(in.trajectory->size()) +
                   ": wire what belongs to the same segments and frames");
     Out out{*in.trajectory};
     std::vector<std::uint32_t> alone(count, 0);
     context.parallel(count, [&](std::size_t s) {
       const auto own = in.segments.open(s);
       if (own->range.end > in.trajectory->size())
-        throw Error("segment " + std::to_string(s) + " has frames that the trajectory does not have: wire segments of the same frames");
+        throw Error(
+            "segment " + std::to_string(s) +
+            " has frames that the trajectory does not have: wire segments of the same frames");
       std::vector<Target> targets;
-      for (std::size_t k = s - std::min<std::size_t>(s, params.neighbours); k < std::min(count, s + params.neighbours + 1); ++k)
+      for (std::size_t k = s - std::min<std::size_t>(s, params.neighbours);
+           k < std::min(count, s + params.neighbours + 1); ++k)
         if (k != s) targets.push_back({in.segments.open(k).shared(), in.poses->T_world_segment[k]});
       for (const Target& target : targets)
-        if (!target.segment->cloud.empty() && !target.segment->cloud.has_normals()) throw Error("the segments have no normals: put estimate.normals before");
+        if (!target.segment->cloud.empty() && !target.segment->cloud.has_normals())
+          throw Error("the segments have no normals: put estimate.normals before");
       for (std::uint32_t f = own->range.first; f < own->range.end; ++f) {
         const auto frame = in.frames.open(f);
-        const FramePose pose = registered(frame->cloud, in.trajectory->T_world_frame[f], targets, params);
+        const FramePose pose =
+            registered(frame->cloud, in.trajectory->T_world_frame[f], targets, params);
         out.trajectory.T_world_frame[f] = pose.T_world_frame;
         alone[s] += pose.pairs < 30;
       }
     });
     std::uint64_t stayed = 0;
     for (const auto n : alone) stayed += n;
-    context.count("frames that see too little of the segments round them, left where they were", stayed);
+    context.count("frames that see too little of the segments round them, left where they were",
+                  stayed);
     return out;
   }
 

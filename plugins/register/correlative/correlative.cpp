@@ -25,7 +25,8 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                             const CorrelativeOptions& options) {
   CorrelativeResult result;
   result.T = start;
-  const Places onto = within_range(target, options.range), laid = within_range(source, options.range);
+  const Places onto = within_range(target, options.range),
+               laid = within_range(source, options.range);
   if (onto.x.empty() || laid.x.empty()) return result;
 
   const bool known = start.x != 0 || start.y != 0 || start.yaw != 0;
@@ -33,12 +34,15 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
-  const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma, levels);
+  const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma,
+                               levels);
   const double step = yaw_step_for(laid.x, laid.y, options.resolution);
-  auto peak = best_pose(coarse, laid.x, laid.y, {start, options.reach, options.reach, options.turn, trust}, step, 0);
+  auto peak = best_pose(coarse, laid.x, laid.y,
+                        {start, options.reach, options.reach, options.turn, trust}, step, 0);
   if (!peak || peak->score < options.retry_below) {
     result.retried = true;
-    const auto wider = best_pose(coarse, laid.x, laid.y, {start, options.retry_reach, options.retry_reach, M_PI, trust},
+    const auto wider = best_pose(coarse, laid.x, laid.y,
+                                 {start, options.retry_reach, options.retry_reach, M_PI, trust},
                                  step, peak ? peak->score : 0);
     if (wider) peak = wider;
   }
@@ -49,8 +53,10 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                              3 * options.fine_sigma, 3);
   result.yaw_step = std::min(yaw_step_for(laid.x, laid.y, options.fine_resolution), step);
   const double room = 1.2 * options.resolution;
-  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, trust}, result.yaw_step, 0);
-  result.T = best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, trust) : peak->pose;
+  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, trust},
+                              result.yaw_step, 0);
+  result.T =
+      best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, trust) : peak->pose;
   return result;
 }
 

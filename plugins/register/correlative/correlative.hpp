@@ -1,5 +1,6 @@
 #pragma once
-/// Lays one planar cloud onto another by trying every pose of a window, without a start worth the name.
+/// Lays one planar cloud onto another by trying every pose of a window, without a start worth the
+/// name.
 
 #include "plumb/data/cloud.hpp"
 #include "plumb/geometry/correlative_search.hpp"
@@ -7,29 +8,30 @@
 namespace plumb {
 
 struct CorrelativeOptions {
-  double reach = 0.6;          ///< [m] half width of the window
-  double turn = 1.2;           ///< [rad] half width of the window
-  double trust = 0.1;          ///< score that a pose far from the start loses at most; half of it ...
-  double trust_distance = 0.05;  ///< [m] ... so far off
-  double trust_turn = 0.05;      ///< [rad] ... or turned so far
-  double resolution = 0.1;     ///< [m] of the first search
-  double sigma = 0.1;          ///< [m] of the first field
-  double retry_below = 0.5;    ///< a score below it is tried again in a window of
-  double retry_reach = 1.5;    ///< [m] ... and all headings
+  double reach = 0.6;  ///< [m] half width of the window
+  double turn = 1.2;   ///< [rad] half width of the window
+  double trust = 0.1;  ///< score that a pose far from the start loses at most; half of it ...
+  double trust_distance = 0.05;   ///< [m] ... so far off
+  double trust_turn = 0.05;       ///< [rad] ... or turned so far
+  double resolution = 0.1;        ///< [m] of the first search
+  double sigma = 0.1;             ///< [m] of the first field
+  double retry_below = 0.5;       ///< a score below it is tried again in a window of
+  double retry_reach = 1.5;       ///< [m] ... and all headings
   double fine_resolution = 0.03;  ///< [m] of the second search, round the first's peak
-  double fine_sigma = 0.1;       ///< [m]
-  double range = 30;           ///< [m] points farther from their sensor are left out
+  double fine_sigma = 0.1;        ///< [m]
+  double range = 30;              ///< [m] points farther from their sensor are left out
 };
 
 struct CorrelativeResult {
-  PlanarPose T;          ///< T_target_source
-  double score = 0;      ///< of the first search, 0 to 1
-  double yaw_step = 0;   ///< [rad] of the second search
+  PlanarPose T;         ///< T_target_source
+  double score = 0;     ///< of the first search, 0 to 1
+  double yaw_step = 0;  ///< [rad] of the second search
   bool retried = false;
 };
 
-/// The pose in the window round `start` that lays `source` onto `target` best, between the cells of the second search by a
-/// parabola. A start that is the identity says nothing (there was no odometry) and is not trusted. Score 0 and `start` where either has no points in range.
+/// The pose in the window round `start` that lays `source` onto `target` best, between the cells of
+/// the second search by a parabola. A start that is the identity says nothing (there was no
+/// odometry) and is not trusted. Score 0 and `start` where either has no points in range.
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);
 

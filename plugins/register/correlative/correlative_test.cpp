@@ -17,7 +17,8 @@ Cloud scan(const Walls& walls, const PlanarPose& at, int beams, double range, un
   std::normal_distribution<double> error(0, 0.01);
   Cloud cloud;
   for (int k = 0; k < beams; ++k) {
-    const double angle = 2 * M_PI * k / beams, dx = std::cos(at.yaw + angle), dy = std::sin(at.yaw + angle);
+    const double angle = 2 * M_PI * k / beams, dx = std::cos(at.yaw + angle),
+                 dy = std::sin(at.yaw + angle);
     double nearest = range;
     for (const auto& w : walls) {
       const double ex = w[2] - w[0], ey = w[3] - w[1], det = ex * dy - ey * dx;
@@ -28,12 +29,14 @@ Cloud scan(const Walls& walls, const PlanarPose& at, int beams, double range, un
     }
     if (nearest >= range) continue;
     const double r = nearest + error(random);
-    cloud.add({static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)), 0});
+    cloud.add(
+        {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle)), 0});
   }
   return cloud;
 }
 
-const Walls room = {{-3, -2, 5, -2}, {5, -2, 5, 1}, {5, 1, 1.5, 1}, {1.5, 1, 1.5, 4}, {1.5, 4, -3, 4}, {-3, 4, -3, -2}};
+const Walls room = {{-3, -2, 5, -2},  {5, -2, 5, 1},   {5, 1, 1.5, 1},
+                    {1.5, 1, 1.5, 4}, {1.5, 4, -3, 4}, {-3, 4, -3, -2}};
 const Walls corridor = {{-40, -1, 40, -1}, {-40, 1, 40, 1}};
 
 TEST(Correlate, NeedsNoStartWithinItsWindow) {
@@ -41,7 +44,8 @@ TEST(Correlate, NeedsNoStartWithinItsWindow) {
   std::uniform_real_distribution<double> step(-0.4, 0.4), turn(-1.1, 1.1);
   for (unsigned round = 0; round < 10; ++round) {
     const PlanarPose motion{step(random), step(random), turn(random)};
-    const auto found = correlate(scan(room, {}, 360, 20, round), scan(room, motion, 360, 20, 50 + round), {}, {});
+    const auto found =
+        correlate(scan(room, {}, 360, 20, round), scan(room, motion, 360, 20, 50 + round), {}, {});
     EXPECT_LT(std::hypot(found.T.x - motion.x, found.T.y - motion.y), 0.04) << round;
     EXPECT_NEAR(wrapped(found.T.yaw - motion.yaw), 0, 0.02) << round;
     EXPECT_FALSE(found.retried);
@@ -58,7 +62,8 @@ TEST(Correlate, LooksAllRoundWhereItsWindowHoldsNothing) {
 
 TEST(Correlate, AlongABareCorridorTheStartSaysHowFar) {
   const PlanarPose motion{0.2, 0.02, 0.05}, odometry{0.19, 0.0, 0.03};
-  const auto found = correlate(scan(corridor, {}, 360, 10, 1), scan(corridor, motion, 360, 10, 2), odometry, {});
+  const auto found =
+      correlate(scan(corridor, {}, 360, 10, 1), scan(corridor, motion, 360, 10, 2), odometry, {});
   EXPECT_NEAR(found.T.x, 0.19, 0.03);
   EXPECT_NEAR(found.T.y, motion.y, 0.02);
   EXPECT_NEAR(found.T.yaw, motion.yaw, 0.01);
@@ -66,7 +71,8 @@ TEST(Correlate, AlongABareCorridorTheStartSaysHowFar) {
 
 TEST(Correlate, OverrulesAStartThatIsPlainlyWrong) {
   const PlanarPose motion{0.1, 0, 0.1}, odometry{0.3, -0.2, -0.9};
-  const auto found = correlate(scan(room, {}, 360, 20, 1), scan(room, motion, 360, 20, 2), odometry, {});
+  const auto found =
+      correlate(scan(room, {}, 360, 20, 1), scan(room, motion, 360, 20, 2), odometry, {});
   EXPECT_LT(std::hypot(found.T.x - motion.x, found.T.y - motion.y), 0.04);
 }
 
@@ -85,10 +91,14 @@ TEST(CorrelativeStep, AcceptsWhatFitsAndSaysSo) {
     segment.range.T_segment_frame.resize(1);
     return segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0));
   };
-  const Segment i = segment_of(scan(room, {}, 360, 20, 1)), j = segment_of(scan(room, {0.1, 0.05, 0.1}, 360, 20, 2));
+  const Segment i = segment_of(scan(room, {}, 360, 20, 1)),
+                j = segment_of(scan(room, {0.1, 0.05, 0.1}, 360, 20, 2));
   StepRun step(*plumb_module());
   TestContext context;
-  step.over("edges").ends("targets", i, Segment()).ends("sources", Segment(), j).at("poses", Pose());
+  step.over("edges")
+      .ends("targets", i, Segment())
+      .ends("sources", Segment(), j)
+      .at("poses", Pose());
   const auto found = step.run<Registration>("registration", context);
   EXPECT_TRUE(found.accepted);
   EXPECT_GT(found.overlap, 0.7);

@@ -11,12 +11,15 @@ namespace {
 /// Row a has bit b where pairs a and b are compatible.
 class Compatibility {
  public:
-  Compatibility(const Matches& matches, const std::vector<std::uint32_t>& chosen, const ConsensusOptions& options)
+  Compatibility(const Matches& matches, const std::vector<std::uint32_t>& chosen,
+                const ConsensusOptions& options)
       : n_(chosen.size()), words_((n_ + 63) / 64), bits_(n_ * words_, 0) {
-    const auto tolerance = static_cast<float>(options.tolerance), shortest = static_cast<float>(options.min_length);
+    const auto tolerance = static_cast<float>(options.tolerance),
+               shortest = static_cast<float>(options.min_length);
     for (std::size_t a = 0; a < n_; ++a)
       for (std::size_t b = a + 1; b < n_; ++b) {
-        const float p = (matches.p[chosen[a]] - matches.p[chosen[b]]).norm(), q = (matches.q[chosen[a]] - matches.q[chosen[b]]).norm();
+        const float p = (matches.p[chosen[a]] - matches.p[chosen[b]]).norm(),
+                    q = (matches.q[chosen[a]] - matches.q[chosen[b]]).norm();
         if (std::abs(p - q) > tolerance || std::min(p, q) < shortest) continue;
         set(a, b);
         set(b, a);
@@ -24,19 +27,23 @@ class Compatibility {
   }
   std::uint32_t degree(std::size_t a) const {
     std::uint32_t count = 0;
-    for (std::size_t w = 0; w < words_; ++w) count += static_cast<std::uint32_t>(std::popcount(row(a)[w]));
+    for (std::size_t w = 0; w < words_; ++w)
+      count += static_cast<std::uint32_t>(std::popcount(row(a)[w]));
     return count;
   }
   std::uint32_t common(std::size_t a, std::size_t b) const {
     std::uint32_t count = 0;
-    for (std::size_t w = 0; w < words_; ++w) count += static_cast<std::uint32_t>(std::popcount(row(a)[w] & row(b)[w]));
+    for (std::size_t w = 0; w < words_; ++w)
+      count += static_cast<std::uint32_t>(std::popcount(row(a)[w] & row(b)[w]));
     return count;
   }
   bool compatible(std::size_t a, std::size_t b) const { return row(a)[b / 64] >> (b % 64) & 1; }
 
  private:
   const std::uint64_t* row(std::size_t a) const { return bits_.data() + a * words_; }
-  void set(std::size_t a, std::size_t b) { bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64); }
+  void set(std::size_t a, std::size_t b) {
+    bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
+  }
   std::size_t n_, words_;
   std::vector<std::uint64_t> bits_;
 };
@@ -44,13 +51,16 @@ class Compatibility {
 /// The motion T_j_i with the least sum of |T p - q|^2 [Kabsch1976].
 Pose fit(const Matches& matches, const std::vector<std::uint32_t>& pairs) {
   Eigen::Vector3d mean_p = Eigen::Vector3d::Zero(), mean_q = Eigen::Vector3d::Zero();
-  for (const auto k : pairs) mean_p += matches.p[k].cast<double>(), mean_q += matches.q[k].cast<double>();
+  for (const auto k : pairs)
+    mean_p += matches.p[k].cast<double>(), mean_q += matches.q[k].cast<double>();
   mean_p /= static_cast<double>(pairs.size());
   mean_q /= static_cast<double>(pairs.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto k : pairs)
-    covariance += (matches.q[k].cast<double>() - mean_q) * (matches.p[k].cast<double>() - mean_p).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    covariance +=
+        (matches.q[k].cast<double>() - mean_q) * (matches.p[k].cast<double>() - mean_p).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) signs.z() = -1;
   const Eigen::Matrix3d R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
@@ -87,11 +97,15 @@ Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) 
   const std::size_t n = std::min<std::size_t>(matches.size(), options.max_pairs);
   if (n < 3) return best;
   std::vector<std::uint32_t> chosen(n);
-  for (std::size_t k = 0; k < n; ++k) chosen[k] = static_cast<std::uint32_t>(k * matches.size() / n);
+  for (std::size_t k = 0; k < n; ++k)
+    chosen[k] = static_cast<std::uint32_t>(k * matches.size() / n);
   const Compatibility graph(matches, chosen, options);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order(n);  // most compatible first
   for (std::uint32_t a = 0; a < n; ++a) order[a] = {graph.degree(a), a};
-  std::ranges::sort(order, [](const auto& a, const auto& b) { return std::pair(-static_cast<std::int64_t>(a.first), a.second) < std::pair(-static_cast<std::int64_t>(b.first), b.second); });
+  std::ranges::sort(order, [](const auto& a, const auto& b) {
+    return std::pair(-static_cast<std::int64_t>(a.first), a.second) <
+           std::pair(-static_cast<std::int64_t>(b.first), b.second);
+  });
   constexpr std::size_t sample = 12;
   for (std::size_t s = 0; s < std::min<std::size_t>(n, options.seeds); ++s) {
     const std::uint32_t seed = order[s].second;
@@ -100,9 +114,11 @@ Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) 
     for (std::uint32_t b = 0; b < n; ++b)
       if (graph.compatible(seed, b)) friends.emplace_back(graph.common(seed, b), b);
     const std::size_t few = std::min(sample, friends.size());
-    std::ranges::partial_sort(friends, friends.begin() + static_cast<std::ptrdiff_t>(few), [](const auto& a, const auto& b) {
-      return std::pair(-static_cast<std::int64_t>(a.first), a.second) < std::pair(-static_cast<std::int64_t>(b.first), b.second);
-    });
+    std::ranges::partial_sort(friends, friends.begin() + static_cast<std::ptrdiff_t>(few),
+                              [](const auto& a, const auto& b) {
+                                return std::pair(-static_cast<std::int64_t>(a.first), a.second) <
+                                       std::pair(-static_cast<std::int64_t>(b.first), b.second);
+                              });
     std::vector<std::uint32_t> pairs{chosen[seed]};
     for (std::size_t k = 0; k < few; ++k) pairs.push_back(chosen[friends[k].second]);
     Consensus one = grown(matches, std::move(pairs), options.tolerance);

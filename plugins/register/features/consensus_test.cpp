@@ -10,19 +10,22 @@ namespace plumb {
 namespace {
 
 Eigen::Vector3f in_cube(Random& random, float half) {
-  return {half * static_cast<float>(2 * random.uniform() - 1), half * static_cast<float>(2 * random.uniform() - 1),
+  return {half * static_cast<float>(2 * random.uniform() - 1),
+          half * static_cast<float>(2 * random.uniform() - 1),
           half * static_cast<float>(2 * random.uniform() - 1)};
 }
 
 const Pose T_j_i(exp_rotation({0.2, -0.4, 2.5}), {40, -25, 3});
 
-/// `right` pairs that follow T_j_i to within `noise` on each axis, then `wrong` ones of unrelated points.
+/// `right` pairs that follow T_j_i to within `noise` on each axis, then `wrong` ones of unrelated
+/// points.
 Matches planted(int right, int wrong, std::uint64_t seed, float noise = 0.1f) {
   Random random(seed);
   Matches m;
   for (int k = 0; k < right + wrong; ++k) {
     m.p.push_back(in_cube(random, 30));
-    m.q.push_back(k < right ? Eigen::Vector3f(Motion(T_j_i) * m.p.back() + in_cube(random, noise)) : Eigen::Vector3f(Motion(T_j_i) * in_cube(random, 30)));
+    m.q.push_back(k < right ? Eigen::Vector3f(Motion(T_j_i) * m.p.back() + in_cube(random, noise))
+                            : Eigen::Vector3f(Motion(T_j_i) * in_cube(random, 30)));
   }
   return m;
 }
@@ -56,7 +59,8 @@ TEST(Consensus, HasAsManyInliersAsTheBestOfAllTriples) {
           }
           const Eigen::Isometry3d T(Eigen::umeyama(p, q, false));
           std::size_t agree = 0;
-          for (std::size_t k = 0; k < m.size(); ++k) agree += (T * m.p[k].cast<double>() - m.q[k].cast<double>()).norm() <= 0.6;
+          for (std::size_t k = 0; k < m.size(); ++k)
+            agree += (T * m.p[k].cast<double>() - m.q[k].cast<double>()).norm() <= 0.6;
           most = std::max(most, agree);
         }
     EXPECT_EQ(consensus_of(m, {}).inliers.size(), most) << seed;
@@ -94,7 +98,8 @@ TEST(Consensus, HasInliersThatFitAndLeavesOutNoneThatDoes) {
   const Consensus found = consensus_of(m, {});
   std::vector<std::uint32_t> fitting;
   for (std::uint32_t k = 0; k < m.size(); ++k)
-    if ((found.T_j_i * m.p[k].cast<double>() - m.q[k].cast<double>()).norm() <= 0.6) fitting.push_back(k);
+    if ((found.T_j_i * m.p[k].cast<double>() - m.q[k].cast<double>()).norm() <= 0.6)
+      fitting.push_back(k);
   EXPECT_EQ(found.inliers, fitting);
 }
 

@@ -20,8 +20,10 @@ struct Asked {
   std::vector<bool> paired;              ///< of each of these
 };
 
-/// Points of `a` in the box of `b`, at most `most`, with the nearest of b within `max` and a normal that agrees.
-Asked pairs_of(const Segment& a, const Segment& b, const Pose& T_b_a, double max, double max_angle, std::uint32_t most) {
+/// Points of `a` in the box of `b`, at most `most`, with the nearest of b within `max` and a normal
+/// that agrees.
+Asked pairs_of(const Segment& a, const Segment& b, const Pose& T_b_a, double max, double max_angle,
+               std::uint32_t most) {
   const Motion motion(T_b_a);
   const auto margin = static_cast<float>(max);
   const Eigen::Vector3f low = b.box.low.array() - margin, high = b.box.high.array() + margin;
@@ -41,14 +43,18 @@ Asked pairs_of(const Segment& a, const Segment& b, const Pose& T_b_a, double max
     SearchTree::Neighbour nearest;
     if (!b.tree().nearest_within(motion * a.cloud.point(k), margin, nearest)) continue;
     const Eigen::Vector3f normal = b.cloud.normal(nearest.index);
-    if ((motion.r * a.cloud.normal(k)).dot(normal) < cosine) continue;  // also where either is unknown
+    if ((motion.r * a.cloud.normal(k)).dot(normal) < cosine)
+      continue;  // also where either is unknown
     result.paired.back() = true;
-    result.pairs.push_back({a.cloud.point(k).cast<double>(), b.cloud.point(nearest.index).cast<double>(), normal.cast<double>()});
+    result.pairs.push_back({a.cloud.point(k).cast<double>(),
+                            b.cloud.point(nearest.index).cast<double>(), normal.cast<double>()});
   }
   return result;
 }
 
-double residual(const PlanePair& pair, const Pose& T_j_i) { return pair.normal.dot(T_j_i * pair.p - pair.q); }
+double residual(const PlanePair& pair, const Pose& T_j_i) {
+  return pair.normal.dot(T_j_i * pair.p - pair.q);
+}
 
 Pose step(const std::vector<PlanePair>& pairs, const Pose& T_j_i, double scale) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -62,8 +68,9 @@ Pose step(const std::vector<PlanePair>& pairs, const Pose& T_j_i, double scale) 
   return fitted({{T_j_i, centre}, factor_of(sums.moments())}, 5);
 }
 
-/// Share of the points asked that have a pair; also that of the points alone whose normals are not along the commonest direction (the ground lies on itself wherever a cloud
-/// is put), whichever is less.
+/// Share of the points asked that have a pair; also that of the points alone whose normals are not
+/// along the commonest direction (the ground lies on itself wherever a cloud is put), whichever is
+/// less.
 double share(const Asked& asked) {
   if (asked.asked == 0) return 0;
   const double all = static_cast<double>(asked.pairs.size()) / static_cast<double>(asked.asked);
@@ -74,19 +81,23 @@ double share(const Asked& asked) {
   const Eigen::Vector3f commonest = eigen.eigenvectors().col(2);
   double others = 0, paired = 0;
   for (std::size_t k = 0; k < asked.normals.size(); ++k)
-    if (!asked.normals[k].isZero() && std::abs(asked.normals[k].dot(commonest)) < 0.7f) ++others, paired += asked.paired[k];
+    if (!asked.normals[k].isZero() && std::abs(asked.normals[k].dot(commonest)) < 0.7f)
+      ++others, paired += asked.paired[k];
   return others < 30 ? all : std::min(all, paired / others);
 }
 
 }  // namespace
 
-Registration refined(const Segment& i, const Segment& j, const Pose& start, const RefineOptions& options, double independent) {
+Registration refined(const Segment& i, const Segment& j, const Pose& start,
+                     const RefineOptions& options, double independent) {
   Registration result;
   Pose T_j_i = start;
   std::vector<PlanePair> pairs;
   for (std::uint32_t n = 0; n < options.iterations; ++n) {
-    const double along = std::min(1.0, 2.0 * n / options.iterations);  // the second half has the last distance
-    const double max = options.first_distance * std::pow(options.max_distance / options.first_distance, along);
+    const double along =
+        std::min(1.0, 2.0 * n / options.iterations);  // the second half has the last distance
+    const double max =
+        options.first_distance * std::pow(options.max_distance / options.first_distance, along);
     pairs = pairs_of(i, j, T_j_i, max, options.max_normal_angle, options.max_points).pairs;
     ++result.iterations;
     if (pairs.size() < 30) break;
@@ -95,8 +106,10 @@ Registration refined(const Segment& i, const Segment& j, const Pose& start, cons
     const Pose moved = before.inverse() * T_j_i;
     if (along >= 1 && moved.translation.norm() < 1e-3 && angle(moved) < 1e-4) break;
   }
-  const Asked forth = pairs_of(i, j, T_j_i, options.max_distance, options.max_normal_angle, options.max_points);
-  const Asked back = pairs_of(j, i, T_j_i.inverse(), options.max_distance, options.max_normal_angle, options.max_points);
+  const Asked forth =
+      pairs_of(i, j, T_j_i, options.max_distance, options.max_normal_angle, options.max_points);
+  const Asked back = pairs_of(j, i, T_j_i.inverse(), options.max_distance, options.max_normal_angle,
+                              options.max_points);
   result.T_i_j = T_j_i.inverse();
   result.pairs = static_cast<std::uint32_t>(forth.pairs.size());
   result.overlap = static_cast<float>(std::min(share(forth), share(back)));

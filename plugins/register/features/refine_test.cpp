@@ -11,7 +11,8 @@ namespace {
 
 constexpr double degree = M_PI / 180;
 
-const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}), T_world_j(exp_rotation({-0.02, 0.01, 2.0}), {-3, 2, 1.8});
+const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}),
+    T_world_j(exp_rotation({-0.02, 0.01, 2.0}), {-3, 2, 1.8});
 const Pose T_j_i = T_world_j.inverse() * T_world_i;
 
 Eigen::Vector3d random_vector(std::mt19937& random, double length) {
@@ -62,12 +63,14 @@ TEST(Refined, CountsTheOverlapInTheCommonBoxOnly) {
 
 TEST(Refined, SeesThatLittleOfAnotherPlaceLiesOnASurface) {
   // Walls stand where there is none in the other cloud, and the ground is two storeys lower.
-  const Segment i = segment_of(yard(1)), j = seen_from(Pose(exp_rotation({0, 0, 2}), {6, 3, 6}), yard(2));
+  const Segment i = segment_of(yard(1)),
+                j = seen_from(Pose(exp_rotation({0, 0, 2}), {6, 3, 6}), yard(2));
   EXPECT_LT(refined(i, j, Pose(), {}).overlap, 0.3f);
 }
 
 TEST(Refined, TakesTheLesserShareForTheOverlap) {
-  // All of a house lies on a surface of the yard, but only a part of the yard in the house's box lies on the house.
+  // All of a house lies on a surface of the yard, but only a part of the yard in the house's box
+  // lies on the house.
   Cloud house, busy;
   std::mt19937 random(1);
   add_block(house, {{0, 0, 0}, {8, 8, 6}}, 20, 0, random);
@@ -92,7 +95,8 @@ TEST(Refined, PairsNoSidesOfAWallThatLookAwayFromEachOther) {
 TEST(Refined, KnowsNothingWhereThereAreNoPairs) {
   const Segment i = seen_from(T_world_i, yard(1)), empty;
   const Pose far = Pose(Eigen::Quaterniond::Identity(), {500, 0, 0}) * T_j_i;
-  for (const Registration& found : {refined(i, seen_from(T_world_j, yard(2)), far, {}), refined(i, empty, far, {}), refined(empty, i, far, {})}) {
+  for (const Registration& found : {refined(i, seen_from(T_world_j, yard(2)), far, {}),
+                                    refined(i, empty, far, {}), refined(empty, i, far, {})}) {
     EXPECT_EQ(found.pairs, 0u);
     EXPECT_EQ(found.overlap, 0);
     EXPECT_TRUE(found.information.isZero(0));
@@ -100,29 +104,35 @@ TEST(Refined, KnowsNothingWhereThereAreNoPairs) {
   }
 }
 
-// ---- information ------------------------------------------------------------------------------------------------------------
+// ---- information
+// ------------------------------------------------------------------------------------------------------------
 
 /// All of i's points in j's box with j's nearest, compared one with each other.
 struct BrutePair {
   Eigen::Vector3d p, q, normal;
 };
-std::vector<BrutePair> brute_pairs(const Segment& i, const Segment& j, const Pose& T, const RefineOptions& options) {
+std::vector<BrutePair> brute_pairs(const Segment& i, const Segment& j, const Pose& T,
+                                   const RefineOptions& options) {
   std::vector<BrutePair> pairs;
   for (std::size_t k = 0; k < i.cloud.size(); ++k) {
     const Eigen::Vector3d p = i.cloud.point(k).cast<double>(), at = T * p;
     double least = options.max_distance;
     std::size_t nearest = j.cloud.size();
     for (std::size_t n = 0; n < j.cloud.size(); ++n)
-      if (const double d = (j.cloud.point(n).cast<double>() - at).norm(); d < least) least = d, nearest = n;
+      if (const double d = (j.cloud.point(n).cast<double>() - at).norm(); d < least)
+        least = d, nearest = n;
     if (nearest == j.cloud.size()) continue;
     const Eigen::Vector3d normal = j.cloud.normal(nearest).cast<double>();
-    if ((T.rotation * i.cloud.normal(k).cast<double>()).dot(normal) < std::cos(options.max_normal_angle)) continue;
+    if ((T.rotation * i.cloud.normal(k).cast<double>()).dot(normal) <
+        std::cos(options.max_normal_angle))
+      continue;
     pairs.push_back({p, j.cloud.point(nearest).cast<double>(), normal});
   }
   return pairs;
 }
 
-/// The second way: half of the second differences of the sum of squares, T_i_j moving by (v, w) in j's axes.
+/// The second way: half of the second differences of the sum of squares, T_i_j moving by (v, w) in
+/// j's axes.
 TEST(RefinedInformation, IsTheCurvatureOfTheSumOfSquares) {
   const Segment i = seen_from(T_world_i, yard(1, 0, 1)), j = seen_from(T_world_j, yard(2, 0, 1));
   RefineOptions options;
@@ -157,7 +167,8 @@ TEST(RefinedInformation, IsNoneAlongACorridor) {
   add_rectangle(world, {-20, 0, 0}, {0, 0, 3}, {40, 0, 0}, 8, 0.01, random);
   // The corridor leads along j's y.
   const Pose T_world(exp_rotation({0, 0, M_PI / 2}), {1, 2, 1});
-  const Matrix6d information = refined(segment_of(world), seen_from(T_world, world), T_world.inverse(), {}).information;
+  const Matrix6d information =
+      refined(segment_of(world), seen_from(T_world, world), T_world.inverse(), {}).information;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information.topLeftCorner<3, 3>());
   EXPECT_LT(eigen.eigenvalues()[0], 1e-3 * eigen.eigenvalues()[1]);
   EXPECT_GT(std::abs(eigen.eigenvectors()(1, 0)), 0.99);
@@ -170,12 +181,14 @@ TEST(RefinedInformation, GrowsWithTheNumberOfIndependentPairsUpToAll) {
   EXPECT_EQ(refined(i, j, T_j_i, {}, 1e6).information, refined(i, j, T_j_i, {}, 1e9).information);
 }
 
-/// With errors that are independent indeed, squared errors measured by the information have the mean 6.
+/// With errors that are independent indeed, squared errors measured by the information have the
+/// mean 6.
 TEST(RefinedInformation, ForetellsTheErrorWherePairsAreIndependent) {
   double sum = 0;
   constexpr int runs = 20;
   for (std::uint32_t seed = 1; seed <= runs; ++seed) {
-    const Segment i = seen_from(T_world_i, yard(seed, 0.05)), j = seen_from(T_world_j, yard(seed + 100, 0.05));
+    const Segment i = seen_from(T_world_i, yard(seed, 0.05)),
+                  j = seen_from(T_world_j, yard(seed + 100, 0.05));
     const Registration found = refined(i, j, T_j_i, {}, 1e9);
     const Pose error = found.T_i_j.inverse() * T_j_i.inverse();
     Vector6d e;

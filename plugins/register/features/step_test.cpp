@@ -8,15 +8,19 @@
 namespace plumb {
 namespace {
 
-const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}), T_world_j(exp_rotation({-0.02, 0.01, 2.0}), {-3, 2, 1.8});
+const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}),
+    T_world_j(exp_rotation({-0.02, 0.01, 2.0}), {-3, 2, 1.8});
 const Pose T_i_j = T_world_i.inverse() * T_world_j;
 
-/// `right` key points of the yard as both segments see them, 0.1 m off, and `wrong` pairs of different points.
+/// `right` key points of the yard as both segments see them, 0.1 m off, and `wrong` pairs of
+/// different points.
 Matches planted(int right, int wrong, const Pose& T_i_j_planted, std::uint32_t seed) {
   const Cloud world = yard(1);
   std::mt19937 random(seed);
   std::normal_distribution<float> error(0, 0.1f);
-  const auto any = [&] { return Eigen::Vector3f(Motion(T_world_i.inverse()) * world.point(random() % world.size())); };
+  const auto any = [&] {
+    return Eigen::Vector3f(Motion(T_world_i.inverse()) * world.point(random() % world.size()));
+  };
   const Motion to_j(T_i_j_planted.inverse());
   Matches m;
   for (int k = 0; k < right + wrong; ++k) {
@@ -37,7 +41,8 @@ StepRun registering(const Matches& matches, const Segment& i, const Segment& j) 
 TEST(RegisterFeatures, RegistersSegmentsWithoutAnyStartFromMatchesThatAreMostlyWrong) {
   const Segment i = seen_from(T_world_i, yard(2)), j = seen_from(T_world_j, yard(3));
   TestContext context;
-  const auto found = registering(planted(30, 170, T_i_j, 1), i, j).run<Registration>("registration", context);
+  const auto found =
+      registering(planted(30, 170, T_i_j, 1), i, j).run<Registration>("registration", context);
   EXPECT_TRUE(found.accepted);
   const Pose error = T_i_j.inverse() * found.T_i_j;
   EXPECT_LT(error.translation.norm(), 0.02);
@@ -60,7 +65,8 @@ TEST(RegisterFeatures, AcceptsNoMotionThatTheCloudsContradict) {
   const Segment i = seen_from(T_world_i, yard(2)), j = seen_from(T_world_j, yard(3));
   const Pose wrong = Pose(exp_rotation({0, 0, 1}), {5, 5, 4}) * T_i_j;  // 30 matches agree about it
   TestContext context;
-  const auto found = registering(planted(30, 70, wrong, 1), i, j).run<Registration>("registration", context);
+  const auto found =
+      registering(planted(30, 70, wrong, 1), i, j).run<Registration>("registration", context);
   EXPECT_FALSE(found.accepted);
   EXPECT_LT(found.overlap, 0.25f);
   EXPECT_EQ(context.counts["edges whose clouds do not overlap enough after alignment"], 1u);
@@ -68,7 +74,9 @@ TEST(RegisterFeatures, AcceptsNoMotionThatTheCloudsContradict) {
 
 TEST(RegisterFeatures, AcceptsNothingBetweenEmptySegments) {
   TestContext context;
-  EXPECT_FALSE(registering(planted(30, 0, T_i_j, 1), Segment(), Segment()).run<Registration>("registration", context).accepted);
+  EXPECT_FALSE(registering(planted(30, 0, T_i_j, 1), Segment(), Segment())
+                   .run<Registration>("registration", context)
+                   .accepted);
 }
 
 /// A room a tenth as large, with 'scale' 0.1, is registered as the large one.
@@ -114,7 +122,8 @@ TEST(RegisterFeatures, SaysThatItNeedsNormals) {
       registering(planted(30, 0, T_i_j, 1), a, b).run<Registration>("registration", context);
       FAIL() << "was not refused";
     } catch (const Error& e) {
-      EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("have no normals"), testing::HasSubstr("estimate.normals")));
+      EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("have no normals"),
+                                           testing::HasSubstr("estimate.normals")));
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// For tests of what registers segments: a yard with houses, low walls and poles, as points with normals.
+/// For tests of what registers segments: a yard with houses, low walls and poles, as points with
+/// normals.
 
 #include <random>
 #include <vector>
@@ -14,14 +15,17 @@ struct Block {
 
 inline const std::vector<Block>& yard_blocks() {
   static const std::vector<Block> blocks = {
-      {{5, 4, 0}, {15, 10, 5}},         {{-14, 6, 0}, {-6, 11, 4}},       {{-3, -12, 0}, {1, -6, 3}},       {{8, -9, 0}, {12, -5, 2}},
-      {{-12, -8, 0}, {-9, -6, 2.5}},    {{-4, 12, 0}, {3, 12.4, 2}},      {{16, -3, 0}, {16.3, -2.7, 6}},   {{-17, 1, 0}, {-16.7, 1.3, 6}},
-      {{2, 1, 0}, {2.3, 1.3, 5}},       {{-6, -2, 0}, {-5.7, -1.7, 5}},   {{5, -13, 0}, {14, -12.7, 2}}};
+      {{5, 4, 0}, {15, 10, 5}},       {{-14, 6, 0}, {-6, 11, 4}},     {{-3, -12, 0}, {1, -6, 3}},
+      {{8, -9, 0}, {12, -5, 2}},      {{-12, -8, 0}, {-9, -6, 2.5}},  {{-4, 12, 0}, {3, 12.4, 2}},
+      {{16, -3, 0}, {16.3, -2.7, 6}}, {{-17, 1, 0}, {-16.7, 1.3, 6}}, {{2, 1, 0}, {2.3, 1.3, 5}},
+      {{-6, -2, 0}, {-5.7, -1.7, 5}}, {{5, -13, 0}, {14, -12.7, 2}}};
   return blocks;
 }
 
-/// Points [m] on a rectangle spanned by u and v from `corner`, `per_square_metre`, displaced along the normal u x v by `noise`.
-inline void add_rectangle(Cloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double per_square_metre, double noise,
+/// Points [m] on a rectangle spanned by u and v from `corner`, `per_square_metre`, displaced along
+/// the normal u x v by `noise`.
+inline void add_rectangle(Cloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
+                          const Eigen::Vector3d& v, double per_square_metre, double noise,
                           std::mt19937& random) {
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> error(0, 1);
@@ -36,8 +40,10 @@ inline void add_rectangle(Cloud& cloud, const Eigen::Vector3d& corner, const Eig
 }
 
 /// The four sides of a block, and its top.
-inline void add_block(Cloud& cloud, const Block& block, double per_square_metre, double noise, std::mt19937& random) {
-  const Eigen::Vector3d size = block.high - block.low, x = size.x() * Eigen::Vector3d::UnitX(), y = size.y() * Eigen::Vector3d::UnitY(),
+inline void add_block(Cloud& cloud, const Block& block, double per_square_metre, double noise,
+                      std::mt19937& random) {
+  const Eigen::Vector3d size = block.high - block.low, x = size.x() * Eigen::Vector3d::UnitX(),
+                        y = size.y() * Eigen::Vector3d::UnitY(),
                         z = size.z() * Eigen::Vector3d::UnitZ();
   add_rectangle(cloud, block.low, x, z, per_square_metre, noise, random);
   add_rectangle(cloud, block.low, z, y, per_square_metre, noise, random);
@@ -74,6 +80,8 @@ inline Segment segment_of(Cloud cloud) {
 }
 
 /// The world's points as a segment that stands at T_world_segment.
-inline Segment seen_from(const Pose& T_world_segment, const Cloud& world) { return segment_of(moved(world, T_world_segment.inverse())); }
+inline Segment seen_from(const Pose& T_world_segment, const Cloud& world) {
+  return segment_of(moved(world, T_world_segment.inverse()));
+}
 
 }  // namespace plumb

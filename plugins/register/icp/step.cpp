@@ -37,34 +37,54 @@ struct Register : EdgeStep {
   template <class Self>
   static void describe_shared(Declaration<Self>& is) {
     is.input("edges", &In::edges, "which segments to lay onto each other");
-    is.input("targets", &In::targets, "the clouds to lay onto, in the plane; of each edge that of i counts");
+    is.input("targets", &In::targets,
+             "the clouds to lay onto, in the plane; of each edge that of i counts");
     is.input("sources", &In::sources, "the clouds that are laid; of each edge that of j counts");
     is.input("poses", &In::poses, "where the segments are at present: where the search starts");
     is.optional_input("initial", &In::initial, "where the search starts instead, if accepted");
-    is.output("registration", &Out::registration, "T_i_j, its information, iterations, MAE and overlap");
-    is.param("reach", &Params::reach).unit("m").range(1e-3, 100).doc("farthest that a pair may be apart");
+    is.output("registration", &Out::registration,
+              "T_i_j, its information, iterations, MAE and overlap");
+    is.param("reach", &Params::reach)
+        .unit("m")
+        .range(1e-3, 100)
+        .doc("farthest that a pair may be apart");
     is.choice("metric", &Params::metric,
               {{"point", Metric::point, "the distance of the pairs"},
-               {"line", Metric::line, "its part along the target's normal (estimate.normals with planar)"}})
-        .doc("what is made small").source("[Zhang2023] eq. (3)");
-    is.param("iterations", &Params::iterations).range(0, 10000).doc("the most iterations; 0: where they are is only judged");
-    is.param("noise", &Params::noise).unit("m").range(1e-4, 10)
+               {"line", Metric::line,
+                "its part along the target's normal (estimate.normals with planar)"}})
+        .doc("what is made small")
+        .source("[Zhang2023] eq. (3)");
+    is.param("iterations", &Params::iterations)
+        .range(0, 10000)
+        .doc("the most iterations; 0: where they are is only judged");
+    is.param("noise", &Params::noise)
+        .unit("m")
+        .range(1e-4, 10)
         .doc("standard deviation of a pair's residual, for the information");
-    is.param("hold", &Params::hold).unit("m").range(1e-4, 100)
-        .doc("with metric line, standard deviation of the start, a third of it in rad for the heading; none: free");
-    is.param("least_overlap", &Params::least_overlap).range(0, 1)
+    is.param("hold", &Params::hold)
+        .unit("m")
+        .range(1e-4, 100)
+        .doc(
+            "with metric line, standard deviation of the start, a third of it in rad for the "
+            "heading; none: free");
+    is.param("least_overlap", &Params::least_overlap)
+        .range(0, 1)
         .doc("share of the points that must have a pair for the registration to be accepted");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment &target = *in.targets.i, &source = *in.sources.j;
     if (params.metric == Metric::line && !target.cloud.empty() && !target.cloud.has_normals())
-      throw Error("'metric: line' needs normals and the targets have none: put estimate.normals with 'planar: true' "
-                  "before, or use 'metric: point'");
-    const PlanarPose start = planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
+      throw Error(
+          "'metric: line' needs normals and the targets have none: put estimate.normals with "
+          "'planar: true' "
+          "before, or use 'metric: point'");
+    const PlanarPose start =
+        planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
     IcpOptions options;
     options.stop = stop, options.metric = params.metric, options.change = params.change;
-    options.ratio = params.ratio, options.reach = params.reach, options.iterations = params.iterations;
+    options.ratio = params.ratio, options.reach = params.reach,
+    options.iterations = params.iterations;
     options.noise = params.noise, options.hold = params.hold;
     Registration out;
     out.T_i_j = in_space(start);
@@ -87,19 +107,28 @@ struct Register : EdgeStep {
 struct RegisterIcp : Register<Stop::change> {
   static void describe(Declaration<RegisterIcp>& is) {
     is.name("register.icp").version(1).source("[Zhang2023] eq. (1)-(11)");
-    is.summary("Lays planar clouds onto each other by iterated closest points, until the pose rests.");
+    is.summary(
+        "Lays planar clouds onto each other by iterated closest points, until the pose rests.");
     describe_shared(is);
-    is.param("change", &Params::change).range(1e-9, 1).doc("it rests when it moves by less, m and rad together");
+    is.param("change", &Params::change)
+        .range(1e-9, 1)
+        .doc("it rests when it moves by less, m and rad together");
   }
 };
 
 struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
     is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
-    is.summary("Lays planar clouds onto each other by iterated closest points, until the mean distance stops falling.");
+    is.summary(
+        "Lays planar clouds onto each other by iterated closest points, until the mean distance "
+        "stops falling.");
     describe_shared(is);
-    is.param("ratio", &Params::ratio).range(0, 1).source("[Zhang2023] 2")
-        .doc("stops when the mean distance of the pairs is no less than this times that of the iteration before");
+    is.param("ratio", &Params::ratio)
+        .range(0, 1)
+        .source("[Zhang2023] 2")
+        .doc(
+            "stops when the mean distance of the pairs is no less than this times that of the "
+            "iteration before");
   }
 };
 

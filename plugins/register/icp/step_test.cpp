@@ -8,7 +8,9 @@
 namespace plumb {
 namespace {
 
-Cloud scan(const PlanarPose& at, int beams, double noise, unsigned seed) { return room_scan<Cloud>(at, beams, noise, seed); }
+Cloud scan(const PlanarPose& at, int beams, double noise, unsigned seed) {
+  return room_scan<Cloud>(at, beams, noise, seed);
+}
 
 Segment segment_of(const Cloud& cloud) {
   Segment segment;
@@ -23,7 +25,10 @@ TEST(RegisterStep, LaysTheSourceOfJOntoTheTargetOfI) {
   for (const std::size_t which : {0u, 1u}) {
     StepRun step(*plumb_module(), which);
     TestContext context;
-    step.over("edges").ends("targets", i, Segment()).ends("sources", Segment(), j).at("poses", Pose());
+    step.over("edges")
+        .ends("targets", i, Segment())
+        .ends("sources", Segment(), j)
+        .at("poses", Pose());
     const auto found = step.run<Registration>("registration", context);
     EXPECT_TRUE(found.accepted);
     EXPECT_LT(off(planar(found.T_i_j), b), 0.03);
@@ -36,7 +41,11 @@ TEST(RegisterStep, SaysWhatALineNeeds) {
   const Segment i = segment_of(scan({}, 90, 0, 1));
   StepRun step(*plumb_module(), 0);
   TestContext context;
-  step.over("edges").ends("targets", i, i).ends("sources", i, i).at("poses", Pose()).set("metric", std::string("line"));
+  step.over("edges")
+      .ends("targets", i, i)
+      .ends("sources", i, i)
+      .at("poses", Pose())
+      .set("metric", std::string("line"));
   EXPECT_THROW(step.run<Registration>("registration", context), Error);
 }
 

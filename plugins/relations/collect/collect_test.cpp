@@ -17,7 +17,10 @@ Registration registration(const PlanarPose& motion, bool accepted) {
 TEST(CollectRelations, TakesTheAcceptedOnes) {
   const Edges edges{9, {{0, 4}, {1, 7}, {3, 8}}};
   const auto relations =
-      collected(edges, std::vector{registration({1, 0, 0}, true), registration({2, 0, 0}, false), registration({3, 0, 0.5}, true)}, 1);
+      collected(edges,
+                std::vector{registration({1, 0, 0}, true), registration({2, 0, 0}, false),
+                            registration({3, 0, 0.5}, true)},
+                1);
   ASSERT_EQ(relations.relative.size(), 2u);
   EXPECT_EQ(relations.relative[1].i, 3u);
   EXPECT_EQ(relations.relative[1].j, 8u);
@@ -50,13 +53,17 @@ TEST(CollectRelations, LeavesOutWhatKnowsNothing) {
 TEST(CollectRelations, AreNotPlanarWhereAMotionLeavesThePlane) {
   auto tilted = registration({1, 0, 0}, true);
   tilted.T_i_j.translation.z() = 0.1;
-  EXPECT_FALSE(collected({3, {{0, 1}, {1, 2}}}, std::vector{tilted, registration({1, 0, 0}, true)}, 1).planar);
+  EXPECT_FALSE(
+      collected({3, {{0, 1}, {1, 2}}}, std::vector{tilted, registration({1, 0, 0}, true)}, 1)
+          .planar);
 }
 
 TEST(CollectRelations, CountWhatTheyTakeAndLeave) {
   TestContext context;
   StepRun(*plumb_module())
-      .each("registrations", std::vector{registration({1, 0, 0}, true), registration({1, 0, 0}, false)}, {3, {{0, 1}, {1, 2}}})
+      .each("registrations",
+            std::vector{registration({1, 0, 0}, true), registration({1, 0, 0}, false)},
+            {3, {{0, 1}, {1, 2}}})
       .run<Relations>("relations", context);
   EXPECT_EQ(context.counts["registrations accepted"], 1u);
   EXPECT_EQ(context.counts["registrations not accepted and left out"], 1u);

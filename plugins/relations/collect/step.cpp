@@ -27,10 +27,12 @@ struct CollectRelations : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     std::vector<Registration> registrations(in.registrations.size());
-    context.parallel(registrations.size(), [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
+    context.parallel(registrations.size(),
+                     [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
     Out out{collected(in.registrations.edges(), registrations, params.inflate)};
     context.count("registrations accepted", out.relations.relative.size());
-    context.count("registrations not accepted and left out", registrations.size() - out.relations.relative.size());
+    context.count("registrations not accepted and left out",
+                  registrations.size() - out.relations.relative.size());
     return out;
   }
 };

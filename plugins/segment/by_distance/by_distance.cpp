@@ -4,13 +4,15 @@
 
 namespace plumb {
 
-double grown_length(double path, double length, std::optional<double> max_length, std::size_t max_segments) {
-  return std::clamp(path / static_cast<double>(max_segments), length, std::max(length, max_length.value_or(length)));
+double grown_length(double path, double length, std::optional<double> max_length,
+                    std::size_t max_segments) {
+  return std::clamp(path / static_cast<double>(max_segments), length,
+                    std::max(length, max_length.value_or(length)));
 }
 
-std::vector<std::size_t> starts_by_distance(const std::vector<double>& travelled, double length,
-                                            std::optional<std::size_t> most_frames,
-                                            const std::function<bool(std::size_t, std::size_t)>& breaks) {
+std::vector<std::size_t> starts_by_distance(
+    const std::vector<double>& travelled, double length, std::optional<std::size_t> most_frames,
+    const std::function<bool(std::size_t, std::size_t)>& breaks) {
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < travelled.size(); ++k) {
     const bool full = !starts.empty() && most_frames && k - starts.back() >= *most_frames;

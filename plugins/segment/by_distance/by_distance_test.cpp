@@ -64,7 +64,9 @@ TEST(SegmentByDistance, MeasuresThePathAndNotTheDistanceFromTheStart) {
 
 TEST(ByDistance, ATurnBeginsASegmentTooAndKeepsItsLastOne) {
   const std::vector<double> heading = {0, 0.1, 0.2, 0.4, 0.5, 0.9};
-  const auto breaks = [&](std::size_t first, std::size_t k) { return heading[k] - heading[first] > 0.25; };
+  const auto breaks = [&](std::size_t first, std::size_t k) {
+    return heading[k] - heading[first] > 0.25;
+  };
   EXPECT_THAT(starts_by_distance({0, 0, 0, 0, 0, 0}, 1, {}, breaks), ElementsAre(0, 3, 5));
 }
 
@@ -99,7 +101,8 @@ std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& valu
   Trajectory trajectory;
   for (std::size_t k = 0; k < frames; ++k) {
     trajectory.stamps.push_back(static_cast<double>(k));
-    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
+    trajectory.T_world_frame.push_back(
+        {Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
   }
   const Step& step = *plumb_module()->steps[0];
   std::vector<PortInput> inputs(step.description().inputs.size());
@@ -116,10 +119,19 @@ std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& valu
 TEST(SegmentByDistance, GrowsItsSegmentsOnALongWayWhenToldTo) {
   using Values = ParameterValues;
   EXPECT_EQ(ends_of(101, Values{{"length", 4.0}}).size(), 20u);
-  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}, {"max_segments", std::int64_t{5}}}).size(), 20u) << "only with max_length";
-  EXPECT_THAT(ends_of(101, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}), ElementsAre(21, 42, 63, 84, 101));
-  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}, {"max_length", 9.0}, {"max_segments", std::int64_t{5}}}).size(), 10u);
-  EXPECT_EQ(ends_of(21, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}), ends_of(21, Values{{"length", 4.0}}));
+  EXPECT_EQ(ends_of(101, Values{{"length", 4.0}, {"max_segments", std::int64_t{5}}}).size(), 20u)
+      << "only with max_length";
+  EXPECT_THAT(
+      ends_of(101,
+              Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}),
+      ElementsAre(21, 42, 63, 84, 101));
+  EXPECT_EQ(
+      ends_of(101, Values{{"length", 4.0}, {"max_length", 9.0}, {"max_segments", std::int64_t{5}}})
+          .size(),
+      10u);
+  EXPECT_EQ(
+      ends_of(21, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}),
+      ends_of(21, Values{{"length", 4.0}}));
 }
 
 TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {

@@ -25,7 +25,9 @@ struct ByDistance : WholeStep {
     std::optional<double> max_length;
     std::uint32_t max_segments = 1000;
     std::string check() const {
-      return max_length && *max_length < length ? "max_length must not be smaller than length, from which it grows" : "";
+      return max_length && *max_length < length
+                 ? "max_length must not be smaller than length, from which it grows"
+                 : "";
     }
   };
 
@@ -46,11 +48,15 @@ struct ByDistance : WholeStep {
     is.param("turn", &Params::turn)
         .unit("rad")
         .range(1e-4, std::numbers::pi)
-        .doc("a frame that is turned by more against its segment's first begins a new one; none: however far");
+        .doc(
+            "a frame that is turned by more against its segment's first begins a new one; none: "
+            "however far");
     is.param("max_length", &Params::max_length)
         .unit("m")
         .range(0.01, 1e6)
-        .doc("'length' grows up to this where the path would give more than 'max_segments'; none: it does not grow");
+        .doc(
+            "'length' grows up to this where the path would give more than 'max_segments'; none: "
+            "it does not grow");
     is.param("max_segments", &Params::max_segments).range(1, 1e9).doc("see 'max_length'");
   }
 
@@ -63,8 +69,10 @@ struct ByDistance : WholeStep {
         return angle(poses[first].inverse() * poses[k]) > *params.turn;
       };
     const auto path = travelled(*in.trajectory);
-    const double length = grown_length(path.empty() ? 0 : path.back(), params.length, params.max_length, params.max_segments);
-    out.ranges = ranges_from(*in.trajectory, starts_by_distance(path, length, params.most_frames, turned));
+    const double length = grown_length(path.empty() ? 0 : path.back(), params.length,
+                                       params.max_length, params.max_segments);
+    out.ranges =
+        ranges_from(*in.trajectory, starts_by_distance(path, length, params.most_frames, turned));
     out.poses = poses_of(out.ranges);
     return out;
   }

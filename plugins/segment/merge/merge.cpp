@@ -88,7 +88,8 @@ Segment merge(const Range& range, const OpenFrame& open) {
   return empty.with(std::move(merger.cloud), std::move(merger.frame));
 }
 
-Segment merge_thinned(const Range& range, double leaf, const OpenFrame& open, std::size_t& dropped) {
+Segment merge_thinned(const Range& range, double leaf, const OpenFrame& open,
+                      std::size_t& dropped) {
   VoxelMeans means(leaf);
   const auto origins = range.origins();
   for (std::size_t k = 0; k < range.size(); ++k) {

@@ -85,7 +85,9 @@ TEST(SegmentMerge, ThinsWhileItMergesAsAVoxelGridDoesAfterwards) {
     if (lacking == 2) merged.frames[3].cloud.nx.clear();
     merged.frames[2].cloud.y[7] = std::numeric_limits<float>::quiet_NaN();
     std::size_t dropped = 0;
-    const Segment thinned = merge_thinned(merged.range, 9, [&](std::size_t k) { return std::make_shared<const Frame>(merged.frames[k]); }, dropped);
+    const Segment thinned = merge_thinned(
+        merged.range, 9,
+        [&](std::size_t k) { return std::make_shared<const Frame>(merged.frames[k]); }, dropped);
     const Segment whole = merged.segment();
     VoxelMeans means(9);
     means.add(whole.cloud, whole.frame, whole.range.origins());

@@ -9,7 +9,8 @@ Trajectory along_x(int n, double step) {
   Trajectory trajectory;
   for (int k = 0; k < n; ++k) {
     trajectory.stamps.push_back(k);
-    trajectory.T_world_frame.push_back({exp_rotation({0, 0, 0.1 * k}), Eigen::Vector3d(step * k, 0, 0)});
+    trajectory.T_world_frame.push_back(
+        {exp_rotation({0, 0, 0.1 * k}), Eigen::Vector3d(step * k, 0, 0)});
   }
   return trajectory;
 }
@@ -18,7 +19,10 @@ TEST(SegmentPoses, OfTheTrajectoryThatTheRangesWereCutFromAreTheRanges) {
   const Trajectory trajectory = along_x(10, 1);
   const auto ranges = ranges_from(trajectory, {0, 4, 7});
   TestContext context;
-  const auto poses = StepRun(*plumb_module()).with("trajectory", trajectory).each("ranges", ranges).run<Poses>("poses", context);
+  const auto poses = StepRun(*plumb_module())
+                         .with("trajectory", trajectory)
+                         .each("ranges", ranges)
+                         .run<Poses>("poses", context);
   const Poses cut = poses_of(ranges);
   ASSERT_EQ(poses.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -30,7 +34,10 @@ TEST(SegmentPoses, OfTheTrajectoryThatTheRangesWereCutFromAreTheRanges) {
 TEST(SegmentPoses, OfAnotherTrajectoryAreThoseOfTheMiddleFrames) {
   const auto ranges = ranges_from(along_x(10, 1), {0, 4, 7});
   TestContext context;
-  const auto poses = StepRun(*plumb_module()).with("trajectory", along_x(10, 2)).each("ranges", ranges).run<Poses>("poses", context);
+  const auto poses = StepRun(*plumb_module())
+                         .with("trajectory", along_x(10, 2))
+                         .each("ranges", ranges)
+                         .run<Poses>("poses", context);
   EXPECT_EQ(poses.T_world_segment[0].translation.x(), 4);
   EXPECT_EQ(poses.T_world_segment[1].translation.x(), 10);
   EXPECT_EQ(poses.T_world_segment[2].translation.x(), 16);
@@ -40,10 +47,15 @@ TEST(SegmentPoses, RefusesRangesOfALongerTrajectory) {
   const auto ranges = ranges_from(along_x(10, 1), {0, 4, 7});
   TestContext context;
   try {
-    StepRun(*plumb_module()).with("trajectory", along_x(9, 1)).each("ranges", ranges).run<Poses>("poses", context);
+    StepRun(*plumb_module())
+        .with("trajectory", along_x(9, 1))
+        .each("ranges", ranges)
+        .run<Poses>("poses", context);
     FAIL();
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "segment 2 has frames up to 10, the trajectory only 9: wire ranges of the same frames");
+    EXPECT_STREQ(
+        e.what(),
+        "segment 2 has frames up to 10, the trajectory only 9: wire ranges of the same frames");
   }
 }
 

@@ -15,10 +15,13 @@ struct SegmentPoses : WholeStep {
 
   static void describe(Declaration<SegmentPoses>& is) {
     is.name("segment.poses").version(1).source("ours");
-    is.summary("Tells where a trajectory puts segments that were cut from another one of the same frames.");
+    is.summary(
+        "Tells where a trajectory puts segments that were cut from another one of the same "
+        "frames.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.input("ranges", &In::ranges, "the frames of each segment");
-    is.output("poses", &Out::poses, "the pose of each segment's middle frame, whose coordinates the segment has");
+    is.output("poses", &Out::poses,
+              "the pose of each segment's middle frame, whose coordinates the segment has");
   }
 
   Out run(const In& in, const Params&, Context&) const {
@@ -26,9 +29,11 @@ struct SegmentPoses : WholeStep {
     for (std::size_t k = 0; k < in.ranges.size(); ++k) {
       const auto range = in.ranges.open(k);
       if (range->end > in.trajectory->size())
-        throw Error("segment " + std::to_string(k) + " has frames up to " + std::to_string(range->end) + ", the trajectory only " +
+        throw Error("segment " + std::to_string(k) + " has frames up to " +
+                    std::to_string(range->end) + ", the trajectory only " +
                     std::to_string(in.trajectory->size()) + ": wire ranges of the same frames");
-      out.poses.T_world_segment.push_back(in.trajectory->T_world_frame[range->first + range->size() / 2]);
+      out.poses.T_world_segment.push_back(
+          in.trajectory->T_world_frame[range->first + range->size() / 2]);
     }
     return out;
   }

@@ -45,7 +45,8 @@ bool PairCost::Evaluate(double const* const* poses, double* residuals, double** 
   Eigen::Map<Vector13d>(residuals, 13) = weight * form_->residual(R, t);
   if (!jacobians) return true;
 
-  // T_j_i moves to (R exp(a), t + b): for a move (v, w) of T_i, a = w and b = R_j' v; for one of T_j, a = -R' w and b = [t]x w - R_j' v.
+  // T_j_i moves to (R exp(a), t + b): for a move (v, w) of T_i, a = w and b = R_j' v; for one of
+  // T_j, a = -R' w and b = [t]x w - R_j' v.
   const Eigen::Matrix<double, 13, 6> by = weight * form_->jacobian(R);
   Eigen::Matrix<double, 13, 6> derivative;
   if (jacobians[0]) {
@@ -99,11 +100,13 @@ ChordalCost::ChordalCost(const RelativePose& relation, bool planar, const double
   root_kappa_ = std::sqrt(weights.kappa);
 }
 
-bool ChordalCost::Evaluate(double const* const* poses, double* residuals, double** jacobians) const {
+bool ChordalCost::Evaluate(double const* const* poses, double* residuals,
+                           double** jacobians) const {
   const Pose T_i = pose_of(poses[0]), T_j = pose_of(poses[1]);
   const Eigen::Matrix3d R_i = T_i.matrix(), R_j = T_j.matrix();
   const double tau = *root_weight_ * root_tau_, kappa = *root_weight_ * root_kappa_;
-  Eigen::Map<Eigen::Vector3d>(residuals, 3) = tau * (T_j.translation - T_i.translation - R_i * t_i_j_);
+  Eigen::Map<Eigen::Vector3d>(residuals, 3) =
+      tau * (T_j.translation - T_i.translation - R_i * t_i_j_);
   Eigen::Map<Eigen::Matrix3d>(residuals + 3) = kappa * (R_j - R_i * R_i_j_);
   if (!jacobians) return true;
 
@@ -112,8 +115,10 @@ bool ChordalCost::Evaluate(double const* const* poses, double* residuals, double
     if (!jacobians[end]) continue;
     const double sign = end == 0 ? -1 : 1;
     derivative.topLeftCorner<3, 3>() = sign * tau * Eigen::Matrix3d::Identity();
-    if (end == 0) derivative.topRightCorner<3, 3>() = tau * R_i * cross_matrix(t_i_j_);
-    else derivative.topRightCorner<3, 3>().setZero();
+    if (end == 0)
+      derivative.topRightCorner<3, 3>() = tau * R_i * cross_matrix(t_i_j_);
+    else
+      derivative.topRightCorner<3, 3>().setZero();
     for (int k = 0; k < 3; ++k) {
       const Eigen::Matrix3d turn = cross_matrix(Eigen::Vector3d::Unit(k));
       const Eigen::Matrix3d by = end == 0 ? Eigen::Matrix3d(-kappa * R_i * turn * R_i_j_)

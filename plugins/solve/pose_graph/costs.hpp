@@ -1,6 +1,7 @@
 #pragma once
-/// The terms of the graph's cost, each with its derivatives by hand. Derivatives are by the moves (v, w) of pose_manifold.hpp:
-/// (R exp(w), t + v), in the first six columns of a pose's block. Every term's residual is multiplied by *root_weight.
+/// The terms of the graph's cost, each with its derivatives by hand. Derivatives are by the moves
+/// (v, w) of pose_manifold.hpp: (R exp(w), t + v), in the first six columns of a pose's block.
+/// Every term's residual is multiplied by *root_weight.
 
 #include <ceres/sized_cost_function.h>
 
@@ -9,8 +10,9 @@
 
 namespace plumb {
 
-/// All pairs of an edge (i, j) at once: |F y(T_j^-1 T_i)|^2 = sum w |T_i p - T_j q|^2, or with planes sum w (n'(T_j^-1 T_i p - q))^2.
-/// `form` is read at each evaluation: it may change between solves.
+/// All pairs of an edge (i, j) at once: |F y(T_j^-1 T_i)|^2 = sum w |T_i p - T_j q|^2, or with
+/// planes sum w (n'(T_j^-1 T_i p - q))^2. `form` is read at each evaluation: it may change between
+/// solves.
 class PairCost final : public ceres::SizedCostFunction<13, 7, 7> {
  public:
   PairCost(const PairForm* form, const double* root_weight)
@@ -24,8 +26,9 @@ class PairCost final : public ceres::SizedCostFunction<13, 7, 7> {
 
 /// How a relative pose Z = T_i_j with information Omega is compared with T_i^-1 T_j.
 enum class RelationError {
-  g2o,     ///< e'Omega e with e = [t; q.vec] of Z^-1 T_i^-1 T_j, q.w >= 0. Source: g2o, EDGE_SE3:QUAT
-  chordal  ///< tau |t_j - t_i - R_i t_Z|^2 + kappa |R_j - R_i R_Z|_F^2. Source: [Rosen2019] (SE-Sync)
+  g2o,  ///< e'Omega e with e = [t; q.vec] of Z^-1 T_i^-1 T_j, q.w >= 0. Source: g2o, EDGE_SE3:QUAT
+  chordal  ///< tau |t_j - t_i - R_i t_Z|^2 + kappa |R_j - R_i R_Z|_F^2. Source: [Rosen2019]
+           ///< (SE-Sync)
 };
 
 class G2oCost final : public ceres::SizedCostFunction<6, 7, 7> {
@@ -73,12 +76,14 @@ class AbsolutePointCost final : public ceres::SizedCostFunction<3, 7> {
   Eigen::Matrix3d root_;
 };
 
-/// A factor F with Omega = F'F, also of a matrix without full rank. Throws Error where an eigenvalue is clearly negative.
+/// A factor F with Omega = F'F, also of a matrix without full rank. Throws Error where an
+/// eigenvalue is clearly negative.
 Eigen::MatrixXd information_root(const Eigen::MatrixXd& information);
 
-/// The two weights of the chordal error. In space tau = 3 / tr(Omega_t^-1), kappa = 3 / (2 tr(Omega_r^-1)); in the plane
-/// tau = 2 / tr(Omega_xy^-1), kappa = Omega_theta. Omega_r is that of q.vec as the file gives it; a planar Omega has its angle's
-/// information in the last entry, times 4 because q.vec is half the angle. Source: [Rosen2019], its reader of g2o files.
+/// The two weights of the chordal error. In space tau = 3 / tr(Omega_t^-1), kappa = 3 / (2
+/// tr(Omega_r^-1)); in the plane tau = 2 / tr(Omega_xy^-1), kappa = Omega_theta. Omega_r is that of
+/// q.vec as the file gives it; a planar Omega has its angle's information in the last entry, times
+/// 4 because q.vec is half the angle. Source: [Rosen2019], its reader of g2o files.
 struct ChordalWeights {
   double tau, kappa;
 };

@@ -11,7 +11,9 @@
 namespace plumb {
 namespace {
 
-Pose random_pose(std::mt19937& random) { return {exp_rotation(gauss3(random, 0.7)), gauss3(random, 10)}; }
+Pose random_pose(std::mt19937& random) {
+  return {exp_rotation(gauss3(random, 0.7)), gauss3(random, 10)};
+}
 
 Matrix6d random_information(std::mt19937& random) {
   std::normal_distribution<double> g;
@@ -61,8 +63,9 @@ TEST(Costs, HaveTheDerivativesThatFiniteDifferencesFind) {
     expect_right_derivatives(G2oCost(relation, &weight), {a, b});
     expect_right_derivatives(ChordalCost(relation, false, &weight), {a, b});
     expect_right_derivatives(AbsolutePoseCost({0, random_pose(random), relation.information}), {a});
-    expect_right_derivatives(
-        AbsolutePointCost({0, gauss3(random, 5), gauss3(random, 5), Eigen::Matrix3d::Identity() * 4}), {a});
+    expect_right_derivatives(AbsolutePointCost({0, gauss3(random, 5), gauss3(random, 5),
+                                                Eigen::Matrix3d::Identity() * 4}),
+                             {a});
 
     PairForm form;
     form.about = {random_pose(random), gauss3(random, 5)};
@@ -78,7 +81,8 @@ TEST(Costs, OfAnEdgeIsTheSumOverItsPairs) {
   for (int trial = 0; trial < 10; ++trial) {
     const Pose T_i = random_pose(random), T_j = random_pose(random), near = T_j.inverse() * T_i;
     PairForm form;
-    form.about = {near * Pose(exp_rotation(gauss3(random, 0.02)), gauss3(random, 0.3)), gauss3(random, 9)};
+    form.about = {near * Pose(exp_rotation(gauss3(random, 0.02)), gauss3(random, 0.3)),
+                  gauss3(random, 9)};
     PointPairSums sums;
     double expected = 0;
     for (int k = 0; k < 1000; ++k) {
@@ -101,7 +105,8 @@ TEST(PoseManifold, UndoesPlusByMinus) {
   for (const bool planar : {false, true}) {
     const PoseManifold manifold(planar);
     const auto x = block_of(random_pose(random));
-    Eigen::VectorXd move = 0.3 * Eigen::VectorXd::Ones(manifold.TangentSize()), back(manifold.TangentSize());
+    Eigen::VectorXd move = 0.3 * Eigen::VectorXd::Ones(manifold.TangentSize()),
+                    back(manifold.TangentSize());
     PoseBlock y;
     manifold.Plus(x.data(), move.data(), y.data());
     manifold.Minus(y.data(), x.data(), back.data());

@@ -44,7 +44,8 @@ void EdgeState::refresh(const Pose& T_j_i, const Hardness& hardness) {
     weighted += w * r2;
     weights += w;
   });
-  // The edge's own weight looks at what its pairs' losses have left, so a half wrong edge may still be kept by its right half.
+  // The edge's own weight looks at what its pairs' losses have left, so a half wrong edge may still
+  // be kept by its right half.
   const double edge_rms = weights > 0 ? std::sqrt(weighted / weights) : 0;
   const double ratio = edge_rms / hardness.edge_scale;
   const double of_edge = loss_weight(edge_loss(), ratio * ratio);

@@ -15,13 +15,15 @@ struct Hardness {
 
 class EdgeState {
  public:
-  /// Throws Error where planes are asked for and normals are missing. Takes the options by reference.
+  /// Throws Error where planes are asked for and normals are missing. Takes the options by
+  /// reference.
   EdgeState(const MatchedEdge& edge, const GraphOptions& options);
 
   const Edge& edge() const { return edge_; }
   std::size_t pairs() const { return matches_->size(); }
 
-  /// Weights from the residuals under T_j_i, then the form about T_j_i with these weights over scale^2.
+  /// Weights from the residuals under T_j_i, then the form about T_j_i with these weights over
+  /// scale^2.
   void refresh(const Pose& T_j_i, const Hardness& hardness);
 
   /// The edge's share of the robust cost at T_j_i, with the final scales.
@@ -29,11 +31,15 @@ class EdgeState {
 
   const PairForm& form() const { return form_; }
   const double* root_weight() const { return &one_; }
-  std::uint32_t found() const { return std::max<std::uint32_t>(matches_->found, static_cast<std::uint32_t>(pairs())); }
+  std::uint32_t found() const {
+    return std::max<std::uint32_t>(matches_->found, static_cast<std::uint32_t>(pairs()));
+  }
   double mean_weight() const { return mean_weight_; }  ///< mean robust weight of its pairs, 0 to 1
-  double rms() const { return rms_; }                     ///< [m] over all pairs
-  double weighted_squares() const { return weighted_squares_; }  ///< [m^2] sum w r^2 with robust weights
-  double weight_sum() const { return weight_sum_; }              ///< sum of robust weights
+  double rms() const { return rms_; }                  ///< [m] over all pairs
+  double weighted_squares() const {
+    return weighted_squares_;
+  }                                                  ///< [m^2] sum w r^2 with robust weights
+  double weight_sum() const { return weight_sum_; }  ///< sum of robust weights
 
  private:
   /// Calls body(k, p, difference d = T p - q, residual r^2) for each pair in order.

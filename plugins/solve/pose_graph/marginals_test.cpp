@@ -18,7 +18,8 @@ Joints chain_with_loops(int n, int loops, std::mt19937& random) {
   Joints joints;
   for (int k = 0; k + 1 < n; ++k) joints.emplace_back(k, k + 1);
   for (int k = 0; k < loops; ++k) {
-    const int a = static_cast<int>(random() % static_cast<unsigned>(n)), b = static_cast<int>(random() % static_cast<unsigned>(n));
+    const int a = static_cast<int>(random() % static_cast<unsigned>(n)),
+              b = static_cast<int>(random() % static_cast<unsigned>(n));
     if (a != b) joints.emplace_back(a, b);
   }
   return joints;
@@ -31,7 +32,8 @@ Matrix6d random_block(std::mt19937& random) {
   return block;
 }
 
-/// J'J of terms A x_i - B x_j with random A and B, one for each joint, and of block 0, which is held.
+/// J'J of terms A x_i - B x_j with random A and B, one for each joint, and of block 0, which is
+/// held.
 Eigen::MatrixXd normal_equations(int n, const Joints& joints, std::mt19937& random) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * n, 6 * n);
   for (const auto& [i, j] : joints) {
@@ -60,14 +62,16 @@ TEST(DiagonalBlocksOfInverse, AreThoseOfTheDenseInverse) {
     ASSERT_EQ(blocks.size(), static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) {
       const Matrix6d judge = inverse.block<6, 6>(6 * k, 6 * k);
-      EXPECT_LT((blocks[static_cast<std::size_t>(k)] - judge).norm(), 1e-9 * judge.norm()) << "block " << k << " of " << n;
+      EXPECT_LT((blocks[static_cast<std::size_t>(k)] - judge).norm(), 1e-9 * judge.norm())
+          << "block " << k << " of " << n;
     }
   }
 }
 
 TEST(DiagonalBlocksOfInverse, AreSymmetric) {
   std::mt19937 random(3);
-  const auto blocks = diagonal_blocks_of_inverse(lower_of(normal_equations(30, chain_with_loops(30, 10, random), random)));
+  const auto blocks = diagonal_blocks_of_inverse(
+      lower_of(normal_equations(30, chain_with_loops(30, 10, random), random)));
   for (const auto& block : blocks) EXPECT_EQ(block, block.transpose());
 }
 
@@ -80,7 +84,10 @@ TEST(DiagonalBlocksOfInverse, OfUnconnectedBlocksAreTheirInverses) {
   }
   const auto blocks = diagonal_blocks_of_inverse(lower_of(H));
   for (int k = 0; k < 3; ++k)
-    EXPECT_LT((blocks[static_cast<std::size_t>(k)] * H.block<6, 6>(6 * k, 6 * k) - Matrix6d::Identity()).norm(), 1e-12);
+    EXPECT_LT(
+        (blocks[static_cast<std::size_t>(k)] * H.block<6, 6>(6 * k, 6 * k) - Matrix6d::Identity())
+            .norm(),
+        1e-12);
 }
 
 TEST(DiagonalBlocksOfInverse, AreRefusedWhereADirectionIsFree) {
@@ -92,7 +99,8 @@ TEST(DiagonalBlocksOfInverse, AreRefusedWhereADirectionIsFree) {
 }
 
 TEST(DiagonalBlocksOfInverse, AreRefusedWhereNothingHoldsTheGraph) {
-  // The sum of |x_k - x_k+1|^2: all of them may move together. Small whole numbers, so that the last pivot is 0 without rounding.
+  // The sum of |x_k - x_k+1|^2: all of them may move together. Small whole numbers, so that the
+  // last pivot is 0 without rounding.
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(120, 120);
   for (int k = 0; k + 6 < 120; ++k) {
     H(k, k) += 1, H(k + 6, k + 6) += 1;
@@ -108,14 +116,16 @@ TEST(DiagonalBlocksOfInverse, AreRefusedWhereNothingHoldsTheGraph) {
   EXPECT_NO_THROW(diagonal_blocks_of_inverse(lower_of(H)));
 }
 
-// ---- uncertainty of poses ---------------------------------------------------------------------------------------------------
+// ---- uncertainty of poses
+// ---------------------------------------------------------------------------------------------------
 
 constexpr double sigma_t = 0.1, sigma_r = 0.002;  // of each relation: [m], [rad]
 
 RelativePose relation(std::uint32_t i, std::uint32_t j, const Pose& T_i_j) {
   RelativePose r{i, j, T_i_j, Matrix6d::Zero()};
   r.information.diagonal().head<3>().setConstant(1 / (sigma_t * sigma_t));
-  r.information.diagonal().tail<3>().setConstant(4 / (sigma_r * sigma_r));  // of q.vec, half the angle
+  r.information.diagonal().tail<3>().setConstant(4 /
+                                                 (sigma_r * sigma_r));  // of q.vec, half the angle
   return r;
 }
 
@@ -135,7 +145,8 @@ Chain chain_of(int n, const Pose& motion) {
   return chain;
 }
 
-/// Least squares with the uncertainty that H alone gives: nothing is added to it for each metre, and only the variance factor multiplies it.
+/// Least squares with the uncertainty that H alone gives: nothing is added to it for each metre,
+/// and only the variance factor multiplies it.
 GraphOptions uncertain() {
   GraphOptions options;
   options.loss = Loss::none;
@@ -145,7 +156,9 @@ GraphOptions uncertain() {
   return options;
 }
 
-GraphResult solved(const Chain& chain, const GraphOptions& options) { return solve_pose_graph(chain.poses, {}, &chain.relations, options, in_order); }
+GraphResult solved(const Chain& chain, const GraphOptions& options) {
+  return solve_pose_graph(chain.poses, {}, &chain.relations, options, in_order);
+}
 
 double variance_factor(const GraphResult& result) {
   const auto found = std::ranges::find(result.metrics.numbers, "variance_factor", &Number::name);
@@ -153,7 +166,8 @@ double variance_factor(const GraphResult& result) {
   return found == result.metrics.numbers.end() ? 0 : found->value;
 }
 
-/// Each pose's covariance of (t [m], angle [rad]) in its own axes, the first pose's being zero, without the factors that multiply all of them.
+/// Each pose's covariance of (t [m], angle [rad]) in its own axes, the first pose's being zero,
+/// without the factors that multiply all of them.
 std::vector<Matrix6d> covariances(const Chain& chain, const GraphOptions& options = uncertain()) {
   const auto result = solved(chain, options);
   EXPECT_EQ(result.uncertainty.absolute.size(), chain.poses.size() - 1);
@@ -177,10 +191,13 @@ TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
   const auto all = covariances(chain_of(30, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0})));
   for (int k = 1; k < 30; ++k) {
     const Matrix6d& c = all[static_cast<std::size_t>(k)];
-    EXPECT_NEAR(c(0, 0), k * sigma_t * sigma_t, 1e-7 * k * sigma_t * sigma_t) << "along, pose " << k;
-    for (int axis = 3; axis < 6; ++axis) EXPECT_NEAR(c(axis, axis), k * sigma_r * sigma_r, 1e-7 * k * sigma_r * sigma_r);
+    EXPECT_NEAR(c(0, 0), k * sigma_t * sigma_t, 1e-7 * k * sigma_t * sigma_t)
+        << "along, pose " << k;
+    for (int axis = 3; axis < 6; ++axis)
+      EXPECT_NEAR(c(axis, axis), k * sigma_r * sigma_r, 1e-7 * k * sigma_r * sigma_r);
     double across = 0;  // a relation's angle swings all that follows it
-    for (int from = 1; from <= k; ++from) across += sigma_t * sigma_t + std::pow(sigma_r * 10 * (k - from), 2);
+    for (int from = 1; from <= k; ++from)
+      across += sigma_t * sigma_t + std::pow(sigma_r * 10 * (k - from), 2);
     EXPECT_NEAR(c(1, 1), across, 1e-7 * across) << "across, pose " << k;
     EXPECT_NEAR(c(2, 2), across, 1e-7 * across) << "up, pose " << k;
   }
@@ -189,7 +206,10 @@ TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
 TEST(Uncertainty, OfABentChainIsWhatEachRelationsErrorBecomesAtItsEnd) {
   const Chain chain = chain_of(25, Pose(exp_rotation({0.02, -0.05, 0.2}), {6, 1, -0.5}));
   const auto all = covariances(chain);
-  const Matrix6d one = (Vector6d() << Eigen::Vector3d::Constant(sigma_t * sigma_t), Eigen::Vector3d::Constant(sigma_r * sigma_r)).finished().asDiagonal();
+  const Matrix6d one = (Vector6d() << Eigen::Vector3d::Constant(sigma_t * sigma_t),
+                        Eigen::Vector3d::Constant(sigma_r * sigma_r))
+                           .finished()
+                           .asDiagonal();
   for (std::size_t k = 1; k < 25; ++k) {
     Matrix6d sum = Matrix6d::Zero();
     for (std::size_t from = 1; from <= k; ++from) {
@@ -206,12 +226,15 @@ TEST(Uncertainty, IsTighterWithALoop) {
   Chain chain = chain_of(n, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
   const auto open = covariances(chain);
   // It says 0.3 m more than the chain, or nothing would tell of errors.
-  chain.relations.relative.push_back(relation(0, n - 1, Pose(Eigen::Quaterniond::Identity(), {10.0 * (n - 1) + 0.3, 0, 0})));
+  chain.relations.relative.push_back(
+      relation(0, n - 1, Pose(Eigen::Quaterniond::Identity(), {10.0 * (n - 1) + 0.3, 0, 0})));
   const auto closed = covariances(chain);
   for (std::uint32_t k = 1; k < n; ++k) {
-    const double chain_way = k, loop_way = n - k, parallel = chain_way * loop_way / (chain_way + loop_way) * sigma_t * sigma_t;
+    const double chain_way = k, loop_way = n - k,
+                 parallel = chain_way * loop_way / (chain_way + loop_way) * sigma_t * sigma_t;
     EXPECT_NEAR(closed[k](0, 0), parallel, 1e-6 * parallel) << "pose " << k;
-    for (int axis = 0; axis < 6; ++axis) EXPECT_LT(closed[k](axis, axis), open[k](axis, axis)) << "pose " << k;
+    for (int axis = 0; axis < 6; ++axis)
+      EXPECT_LT(closed[k](axis, axis), open[k](axis, axis)) << "pose " << k;
   }
 }
 
@@ -225,8 +248,10 @@ TEST(Uncertainty, IsMultipliedByItsFactor) {
   EXPECT_EQ(variance_factor(once), 1);
   EXPECT_NEAR(once.uncertainty.absolute[3].information(0, 0), 1 / (4 * sigma_t * sigma_t), 1e-6);
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_LT((9 * thrice.uncertainty.absolute[k].information - once.uncertainty.absolute[k].information).norm(),
-              1e-9 * once.uncertainty.absolute[k].information.norm());
+    EXPECT_LT(
+        (9 * thrice.uncertainty.absolute[k].information - once.uncertainty.absolute[k].information)
+            .norm(),
+        1e-9 * once.uncertainty.absolute[k].information.norm());
 }
 
 TEST(Uncertainty, GrowsByItsShareOfTheDistanceFromTheFirstPose) {
@@ -238,7 +263,9 @@ TEST(Uncertainty, GrowsByItsShareOfTheDistanceFromTheFirstPose) {
   for (std::size_t k = 1; k < 5; ++k) {
     const double more = std::pow(0.01 * chain.poses.T_world_segment[k].translation.norm(), 2);
     for (int axis = 0; axis < 6; ++axis)
-      EXPECT_NEAR(with[k](axis, axis), without[k](axis, axis) + (axis < 3 ? more : 0), 1e-7 * with[k](axis, axis)) << k << ", " << axis;
+      EXPECT_NEAR(with[k](axis, axis), without[k](axis, axis) + (axis < 3 ? more : 0),
+                  1e-7 * with[k](axis, axis))
+          << k << ", " << axis;
   }
 }
 
@@ -248,15 +275,18 @@ Chain noisy_circle(double times, std::uint32_t seed) {
   std::mt19937 random(seed);
   Chain chain{g.truth, {}};
   for (const auto& e : g.edges)
-    chain.relations.relative.push_back(
-        relation(e.i, e.j, g.truth.relative(e.i, e.j) * Pose(exp_rotation(gauss3(random, times * sigma_r)), gauss3(random, times * sigma_t))));
+    chain.relations.relative.push_back(relation(
+        e.i, e.j,
+        g.truth.relative(e.i, e.j) *
+            Pose(exp_rotation(gauss3(random, times * sigma_r)), gauss3(random, times * sigma_t))));
   return chain;
 }
 
 TEST(Uncertainty, LearnsFromTheirDisagreementHowLargeTheErrorsAre) {
   for (const double times : {0.3, 1.0, 2.0}) {
     double mean = 0;
-    for (std::uint32_t seed = 1; seed <= 5; ++seed) mean += variance_factor(solved(noisy_circle(times, seed), uncertain())) / 5;
+    for (std::uint32_t seed = 1; seed <= 5; ++seed)
+      mean += variance_factor(solved(noisy_circle(times, seed), uncertain())) / 5;
     EXPECT_NEAR(mean / (times * times), 1, 0.15) << times;
   }
 }
@@ -282,7 +312,8 @@ TEST(Uncertainty, ForetellsHowFarPosesAreFromTheTruth) {
   EXPECT_NEAR(mean, 6, 1.5);
 }
 
-/// The same of pairs, 40 an edge with 0.05 m of noise, whatever deviation 'scale' says that they have.
+/// The same of pairs, 40 an edge with 0.05 m of noise, whatever deviation 'scale' says that they
+/// have.
 TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
   for (const double scale : {0.05, 0.5}) {
     double mean = 0;
@@ -290,13 +321,16 @@ TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
       const auto g = circle(20, 2, seed);
       auto options = uncertain();
       options.scale = scale;
-      mean += mean_squared_error(solve_pose_graph(g.drifted, g.matched(), nullptr, options, in_order), g.truth) / 5;
+      mean += mean_squared_error(
+                  solve_pose_graph(g.drifted, g.matched(), nullptr, options, in_order), g.truth) /
+              5;
     }
     EXPECT_NEAR(mean, 6, 2) << scale;
   }
 }
 
-/// Beside relations that err ten times as much as the pairs, poses come out as near to the truth whatever 'scale' says of the pairs.
+/// Beside relations that err ten times as much as the pairs, poses come out as near to the truth
+/// whatever 'scale' says of the pairs.
 TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
   double right = 0, wrong = 0, estimated = 0, without_loss = 0;
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
@@ -304,14 +338,19 @@ TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
     std::mt19937 random(seed);
     Relations odometry;
     for (std::uint32_t k = 0; k + 1 < g.truth.size(); ++k)
-      odometry.relative.push_back(relation(k, k + 1, g.truth.relative(k, k + 1) * Pose(exp_rotation(gauss3(random, 10 * sigma_r)), gauss3(random, 3 * sigma_t))));
-    for (auto& r : odometry.relative) r.information.topLeftCorner<3, 3>() /= 9, r.information.bottomRightCorner<3, 3>() /= 100;
+      odometry.relative.push_back(relation(
+          k, k + 1,
+          g.truth.relative(k, k + 1) *
+              Pose(exp_rotation(gauss3(random, 10 * sigma_r)), gauss3(random, 3 * sigma_t))));
+    for (auto& r : odometry.relative)
+      r.information.topLeftCorner<3, 3>() /= 9, r.information.bottomRightCorner<3, 3>() /= 100;
     const auto error = [&](double scale, bool estimate, Loss loss = Loss::huber) {
       auto options = uncertain();
       options.scale = scale;
       options.estimate_variance = estimate;
       options.loss = loss;
-      return ate(solve_pose_graph(g.drifted, g.matched(), &odometry, options, in_order).poses, g.truth);
+      return ate(solve_pose_graph(g.drifted, g.matched(), &odometry, options, in_order).poses,
+                 g.truth);
     };
     right += error(0.05, false);
     wrong += error(5, false);
@@ -328,13 +367,17 @@ TEST(Uncertainty, DoesNotCountARelationThatTheLossLetGo) {
   auto options = uncertain();
   options.loss = Loss::geman_mcclure;
   const auto without = solved(chain, options);
-  auto wrong = relation(3, 40, chain.poses.relative(3, 40) * Pose(Eigen::Quaterniond::Identity(), {30, 0, 0}));
+  auto wrong = relation(
+      3, 40, chain.poses.relative(3, 40) * Pose(Eigen::Quaterniond::Identity(), {30, 0, 0}));
   wrong.information *= 100;
   chain.relations.relative.push_back(wrong);
   const auto with = solved(chain, options);
   ASSERT_EQ(with.uncertainty.absolute.size(), without.uncertainty.absolute.size());
   for (std::size_t k = 0; k < with.uncertainty.absolute.size(); ++k)
-    EXPECT_NEAR(with.uncertainty.absolute[k].information(0, 0) / without.uncertainty.absolute[k].information(0, 0), 1, 0.05) << k;
+    EXPECT_NEAR(with.uncertainty.absolute[k].information(0, 0) /
+                    without.uncertainty.absolute[k].information(0, 0),
+                1, 0.05)
+        << k;
 }
 
 TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {
@@ -357,7 +400,9 @@ TEST(Uncertainty, IsLeftOutWithAWarningWhereARelationLeavesAPoseFree) {
   chain.relations.relative.back().information(5, 5) = 0;
   const auto result = solved(chain, uncertain());
   EXPECT_TRUE(result.uncertainty.absolute.empty());
-  EXPECT_THAT(result.warnings, testing::ElementsAre(testing::HasSubstr("no uncertainty: give odometry or more edges")));
+  EXPECT_THAT(
+      result.warnings,
+      testing::ElementsAre(testing::HasSubstr("no uncertainty: give odometry or more edges")));
   EXPECT_EQ(result.poses.size(), 4u);
 }
 

@@ -1,15 +1,13 @@
 #include "pose_graph.hpp"
 
-#include <algorithm>
-
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <utility>
-
-#include <Eigen/Cholesky>
 
 #include "edge_state.hpp"
 #include "marginals.hpp"
@@ -37,8 +35,7 @@ class Graph {
       : start_(start), options_(options), parallel_(parallel), parts_(start.size()) {
     for (const auto& pose : start.T_world_segment) blocks_.push_back(block_of(pose));
     check(edges, relations);
-    for (const auto& edge : edges)
-      edges_.push_back(std::make_unique<EdgeState>(edge, options_));
+    for (const auto& edge : edges) edges_.push_back(std::make_unique<EdgeState>(edge, options_));
     if (relations) add_relations(*relations);
     add_priors();
     build(relations);
@@ -61,7 +58,8 @@ class Graph {
   }
 
  private:
-  // ---- building -------------------------------------------------------------------------------------------------------------
+  // ---- building
+  // -------------------------------------------------------------------------------------------------------------
 
   void check(std::span<const MatchedEdge> edges, const Relations* relations) const {
     const auto has = [&](std::uint32_t i, const char* what) {
@@ -79,7 +77,8 @@ class Graph {
   void add_relations(const Relations& relations) {
     planar_ = relations.planar;
     named_.assign(start_.size() + 1, 0);  // how many poses before each one a relation names
-    for (const auto& relation : relations.relative) named_[relation.i + 1] = named_[relation.j + 1] = 1;
+    for (const auto& relation : relations.relative)
+      named_[relation.i + 1] = named_[relation.j + 1] = 1;
     std::partial_sum(named_.begin(), named_.end(), named_.begin());
     for (const auto& relation : relations.relative) {
       auto term = std::make_unique<RelationTerm>();
@@ -94,8 +93,11 @@ class Graph {
     relations_ = terms_.size();
   }
 
-  /// From a pose to the next that any relation names: between them lie at most poses that were left out.
-  bool sequential(const RelativePose& r) const { return r.j > r.i && named_[r.j] == named_[r.i + 1]; }
+  /// From a pose to the next that any relation names: between them lie at most poses that were left
+  /// out.
+  bool sequential(const RelativePose& r) const {
+    return r.j > r.i && named_[r.j] == named_[r.i + 1];
+  }
 
   std::vector<std::uint32_t> unnamed() const {
     std::vector<std::uint32_t> poses;
@@ -104,7 +106,8 @@ class Graph {
     return poses;
   }
 
-  /// The shape that the poses came with, between neighbours: q.vec is half the rotation, hence the 4.
+  /// The shape that the poses came with, between neighbours: q.vec is half the rotation, hence
+  /// the 4.
   void add_priors() {
     if (!options_.odometry_translation || !options_.odometry_rotation) return;
     for (std::uint32_t k = 0; k + 1 < start_.size(); ++k) {
@@ -155,17 +158,18 @@ class Graph {
       }
     }
     for (const auto& part : parts_.list()) {
-      const bool absolute =
-          std::any_of(part.begin(), part.end(), [&](auto v) { return held[v]; });
+      const bool absolute = std::any_of(part.begin(), part.end(), [&](auto v) { return held[v]; });
       if (!absolute) problem_->SetParameterBlockConstant(blocks_[part.front()].data());
       absolute_.push_back(absolute);
     }
   }
 
-  // ---- rounds ---------------------------------------------------------------------------------------------------------------
+  // ---- rounds
+  // ---------------------------------------------------------------------------------------------------------------
 
   bool reweighted() const {
-    return options_.loss != Loss::none || options_.edge_loss != Loss::none || options_.estimate_variance;
+    return options_.loss != Loss::none || options_.edge_loss != Loss::none ||
+           options_.estimate_variance;
   }
   int rounds() const { return reweighted() ? options_.rounds : 1; }
   /// Two thirds of the rounds shrink the scales; the rest have the final ones.
@@ -184,9 +188,8 @@ class Graph {
   Pose T_j_i(const Edge& e) const { return pose(e.j).inverse() * pose(e.i); }
 
   void refresh(const Hardness& hardness) {
-    parallel_(edges_.size(), [&](std::size_t k) {
-      edges_[k]->refresh(T_j_i(edges_[k]->edge()), hardness);
-    });
+    parallel_(edges_.size(),
+              [&](std::size_t k) { edges_[k]->refresh(T_j_i(edges_[k]->edge()), hardness); });
     const double scale = options_.relation_scale * hardness.scale / options_.scale;
     for (auto& term : terms_) {
       if (!term->robust) continue;
@@ -195,7 +198,8 @@ class Graph {
     }
   }
 
-  /// Variance component estimation: an edge's pairs share errors, so what an edge is worth beside the odometry shows in how far the edges disagree.
+  /// Variance component estimation: an edge's pairs share errors, so what an edge is worth beside
+  /// the odometry shows in how far the edges disagree.
   void weigh_relations() {
     if (!options_.estimate_variance || edges_.empty()) return;
     const double root = std::sqrt(variance_factor()) * options_.uncertainty_factor;
@@ -218,10 +222,12 @@ class Graph {
     solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.num_threads = 1;  // the same sums in the same order
     solver.logging_type = ceres::SILENT;
-    // Nearly Gauss-Newton: a long chain bends by directions that are a million times softer than the stiffest, and Ceres' own start
-    // (1e4) would damp just these, so that each round moves them by a part. Where a step fails the radius shrinks by itself.
+    // Nearly Gauss-Newton: a long chain bends by directions that are a million times softer than
+    // the stiffest, and Ceres' own start (1e4) would damp just these, so that each round moves them
+    // by a part. Where a step fails the radius shrinks by itself.
     solver.initial_trust_region_radius = 1e8;
-    // Rounds with weights to refresh need no more than weights are worth; a single one goes to the end.
+    // Rounds with weights to refresh need no more than weights are worth; a single one goes to the
+    // end.
     solver.function_tolerance = reweighted() ? 1e-4 : 1e-12;
     solver.parameter_tolerance = 1e-12;
     solver.gradient_tolerance = 1e-12;
@@ -229,7 +235,8 @@ class Graph {
     ceres::Solve(solver, problem_.get(), &summary);
     if (summary.termination_type == ceres::FAILURE)
       throw Error("the graph could not be solved: " + summary.message);
-    iterations_used_ += std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // none where nothing can move
+    iterations_used_ += std::max(
+        0, static_cast<int>(summary.iterations.size()) - 1);  // none where nothing can move
   }
 
   /// [m] the largest move of a pose, its rotation taken at 10 m.
@@ -254,14 +261,14 @@ class Graph {
     }
   }
 
-  // ---- results --------------------------------------------------------------------------------------------------------------
+  // ---- results
+  // --------------------------------------------------------------------------------------------------------------
 
   /// The robust cost with the final scales: a sum of squares without a half.
   double cost() {
     std::vector<double> shares(edges_.size());
-    parallel_(edges_.size(), [&](std::size_t k) {
-      shares[k] = edges_[k]->cost(T_j_i(edges_[k]->edge()));
-    });
+    parallel_(edges_.size(),
+              [&](std::size_t k) { shares[k] = edges_[k]->cost(T_j_i(edges_[k]->edge())); });
     double sum = 0;
     for (const double share : shares) sum += share;
     const double scale2 = options_.relation_scale * options_.relation_scale;
@@ -297,12 +304,15 @@ class Graph {
     for (const auto& edge : edges_) verdict.add(*edge);
     for (std::size_t k = 0; k < relations_; ++k) {
       const auto& r = terms_[k]->relation;
-      if (!edges_.empty() && !terms_[k]->robust) {  // beside matches a chain is what the odometry knows, no edge of its own
+      if (!edges_.empty() &&
+          !terms_[k]
+               ->robust) {  // beside matches a chain is what the odometry knows, no edge of its own
         verdict.joined_by_prior();
         continue;
       }
       const Pose error = r.T_i_j.inverse() * (pose(r.i).inverse() * pose(r.j));
-      verdict.add(r, !terms_[k]->robust, error.translation.norm(), terms_[k]->root_weight * terms_[k]->root_weight);
+      verdict.add(r, !terms_[k]->robust, error.translation.norm(),
+                  terms_[k]->root_weight * terms_[k]->root_weight);
     }
     if (terms_.size() > relations_) verdict.joined_by_prior();
     if (edges_.empty() && relations_ > 0) verdict.left_out(unnamed());
@@ -312,21 +322,25 @@ class Graph {
     return result;
   }
 
-  // ---- uncertainty ----------------------------------------------------------------------------------------------------------
+  // ---- uncertainty
+  // ----------------------------------------------------------------------------------------------------------
 
-  /// The mean cost, by degree of freedom, that edges and relations have above the best that each could have alone: 1 where
-  /// they disagree as much as their weights say.
+  /// The mean cost, by degree of freedom, that edges and relations have above the best that each
+  /// could have alone: 1 where they disagree as much as their weights say.
   double variance_factor() const {
     std::vector<double> above(edges_.size(), 0);
     parallel_(edges_.size(), [&](std::size_t k) {
       const EdgeState& edge = *edges_[k];
       if (edge.pairs() < 6 || edge.edge().i == edge.edge().j) return;
-      const auto cost_at = [&](const Pose& T) { return edge.form().residual(T.matrix(), T.translation).squaredNorm(); };
+      const auto cost_at = [&](const Pose& T) {
+        return edge.form().residual(T.matrix(), T.translation).squaredNorm();
+      };
       above[k] = std::max(0.0, cost_at(T_j_i(edge.edge())) - cost_at(fitted(edge.form(), 5)));
     });
     double sum = 0, terms = 0;
     for (std::size_t k = 0; k < edges_.size(); ++k)
-      if (edges_[k]->pairs() >= 6) sum += above[k], terms += 6 * std::clamp(edges_[k]->mean_weight(), 0.0, 1.0);
+      if (edges_[k]->pairs() >= 6)
+        sum += above[k], terms += 6 * std::clamp(edges_[k]->mean_weight(), 0.0, 1.0);
     for (const auto& term : terms_) {
       if (!term->robust && edges_.empty()) terms += 6, sum += squared(*term);
       if (term->robust && term->root_weight > 0.7) terms += 6, sum += squared(*term);
@@ -345,23 +359,29 @@ class Graph {
       result.warnings.push_back(e.what());
       return;
     }
-    const auto first = static_cast<std::uint32_t>(std::ranges::find_if(covariances, [](const auto& c) { return !c; }) - covariances.begin());
-    const double factor = variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
+    const auto first = static_cast<std::uint32_t>(
+        std::ranges::find_if(covariances, [](const auto& c) { return !c; }) - covariances.begin());
+    const double factor =
+        variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
     for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
       if (!covariances[k]) continue;
-      // From moves (v in the world, w in the pose's axes) to what a relation of g2o counts: [t; q.vec] in the pose's axes.
+      // From moves (v in the world, w in the pose's axes) to what a relation of g2o counts: [t;
+      // q.vec] in the pose's axes.
       Matrix6d change = Matrix6d::Zero();
       change.topLeftCorner<3, 3>() = pose(k).matrix().transpose();
       change.bottomRightCorner<3, 3>() = 0.5 * Eigen::Matrix3d::Identity();
       Matrix6d covariance = factor * change * *covariances[k] * change.transpose();
-      const double away = first < blocks_.size() ? (pose(k).translation - pose(first).translation).norm() : 0;
+      const double away =
+          first < blocks_.size() ? (pose(k).translation - pose(first).translation).norm() : 0;
       covariance.diagonal().head<3>().array() += std::pow(options_.uncertainty_per_metre * away, 2);
-      result.uncertainty.absolute.push_back({k, pose(k), covariance.ldlt().solve(Matrix6d::Identity())});
+      result.uncertainty.absolute.push_back(
+          {k, pose(k), covariance.ldlt().solve(Matrix6d::Identity())});
     }
     result.metrics.add("variance_factor", variance_factor(), "");
   }
 
-  // ---- data -----------------------------------------------------------------------------------------------------------------
+  // ---- data
+  // -----------------------------------------------------------------------------------------------------------------
 
   const Poses& start_;
   const GraphOptions& options_;

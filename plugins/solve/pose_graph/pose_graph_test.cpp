@@ -51,7 +51,8 @@ TEST(PoseGraph, LeavesTheFirstPoseAndAPerfectGraphAsTheyAre) {
   EXPECT_LT(ate(result.poses, g.truth), 0.03);
 }
 
-/// Points every `each`-th loop edge at another segment, with pairs that agree among themselves about a wrong place.
+/// Points every `each`-th loop edge at another segment, with pairs that agree among themselves
+/// about a wrong place.
 std::vector<std::size_t> plant_false_loops(TestGraph& g, std::size_t each, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<std::size_t> planted;
@@ -60,7 +61,8 @@ std::vector<std::size_t> plant_false_loops(TestGraph& g, std::size_t each, std::
     if (g.edges[k].kind != EdgeKind::loop || ++loops % each != 0) continue;
     planted.push_back(k);
     Poses wrong = g.truth;
-    wrong.T_world_segment[g.edges[k].i].translation += Eigen::Vector3d(8, -6, 1) + gauss3(random, 4);
+    wrong.T_world_segment[g.edges[k].i].translation +=
+        Eigen::Vector3d(8, -6, 1) + gauss3(random, 4);
     g.matches[k] = pairs_of(g.edges[k], wrong, 100, 0.05, 0, random);
   }
   return planted;
@@ -112,7 +114,8 @@ TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
   // The second part keeps its place after segment 4 and is right within itself.
   const Pose kept = g.drifted.relative(4, 5), now = result.poses.relative(4, 5);
   EXPECT_LT((kept.translation - now.translation).norm(), 1e-9);
-  EXPECT_LT((result.poses.relative(5, 9).translation - g.truth.relative(5, 9).translation).norm(), 0.1);
+  EXPECT_LT((result.poses.relative(5, 9).translation - g.truth.relative(5, 9).translation).norm(),
+            0.1);
   // With the odometry's shape as a prior it is one graph.
   auto options = robust();
   options.odometry_translation = 0.1;
@@ -124,7 +127,8 @@ TEST(PoseGraph, TheOdometryHoldsTheShapeWhereSequentialPairsAreFewAndWrong) {
   auto g = circle(30, 2, 4, 0.2);
   std::mt19937 random(9);
   for (std::size_t k = 0; k < g.edges.size(); ++k)
-    if (g.edges[k].kind == EdgeKind::sequential) g.matches[k] = pairs_of(g.edges[k], g.truth, 4, 2, 0, random);
+    if (g.edges[k].kind == EdgeKind::sequential)
+      g.matches[k] = pairs_of(g.edges[k], g.truth, 4, 2, 0, random);
   auto options = robust();
   const double without = ate(solve(g, options).poses, g.truth);
   options.odometry_translation = 0.05;
@@ -153,7 +157,9 @@ TEST(PoseGraph, WorksAtUtmCoordinates) {
   const auto there = solve(g, robust());
   for (std::size_t k = 0; k < g.truth.size(); ++k)
     EXPECT_LT((there.poses.T_world_segment[k].translation -
-               (utm * here.poses.T_world_segment[k]).translation).norm(), 1e-4);
+               (utm * here.poses.T_world_segment[k]).translation)
+                  .norm(),
+              1e-4);
 }
 
 TEST(PoseGraph, RefusesAnEdgeToAPoseThatIsNotThere) {

@@ -22,9 +22,10 @@ inline Pose pose_of(const double* b) {
 
 /// Moves a pose to (R exp(w), t + v); the move is (v, w), or (v_x, v_y, w_z) if planar.
 ///
-/// Cost functions here give their derivatives by (v, w) directly, in the first six of the seven columns that Ceres asks for, and
-/// PlusJacobian merely picks columns: the chain rule through the quaternion's four numbers would add work and rounding only.
-/// So these cost functions and this manifold belong together.
+/// Cost functions here give their derivatives by (v, w) directly, in the first six of the seven
+/// columns that Ceres asks for, and PlusJacobian merely picks columns: the chain rule through the
+/// quaternion's four numbers would add work and rounding only. So these cost functions and this
+/// manifold belong together.
 class PoseManifold final : public ceres::Manifold {
  public:
   explicit PoseManifold(bool planar) : planar_(planar) {}

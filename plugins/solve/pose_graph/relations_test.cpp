@@ -16,8 +16,8 @@ struct File {
   Relations relations;
 };
 
-/// The vertices and edges of a file whose vertices are numbered from 0. In the plane q.vec is half the angle, so the angle's information
-/// counts 4 times.
+/// The vertices and edges of a file whose vertices are numbered from 0. In the plane q.vec is half
+/// the angle, so the angle's information counts 4 times.
 File read(const std::filesystem::path& path) {
   File file;
   std::ifstream in(path);
@@ -28,7 +28,8 @@ File read(const std::filesystem::path& path) {
     const auto pose = [&] {
       double v[7];
       for (double& x : v) words >> x;
-      return Pose(Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized(), Eigen::Vector3d(v[0], v[1], v[2]));
+      return Pose(Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized(),
+                  Eigen::Vector3d(v[0], v[1], v[2]));
     };
     const auto planar_pose = [&] {
       double x, y, angle;
@@ -76,8 +77,9 @@ File read(const std::filesystem::path& path) {
 /// g2o's error of one relation, written down once more.
 Vector6d error_of(const RelativePose& r, const Pose& a, const Pose& b) {
   const Eigen::Matrix3d R = r.T_i_j.matrix().transpose() * a.matrix().transpose() * b.matrix();
-  const Eigen::Vector3d t = r.T_i_j.matrix().transpose() *
-                            (a.matrix().transpose() * (b.translation - a.translation) - r.T_i_j.translation);
+  const Eigen::Vector3d t =
+      r.T_i_j.matrix().transpose() *
+      (a.matrix().transpose() * (b.translation - a.translation) - r.T_i_j.translation);
   const Eigen::Quaterniond q(R);
   Vector6d e;
   e << t, (q.w() < 0 ? -1 : 1) * q.vec();
@@ -93,7 +95,8 @@ double cost_of(const Relations& relations, const Poses& poses) {
   return sum;
 }
 
-/// The second computation: Gauss-Newton with derivatives by central differences and a left perturbation, nothing of Ceres.
+/// The second computation: Gauss-Newton with derivatives by central differences and a left
+/// perturbation, nothing of Ceres.
 Poses gauss_newton(const Relations& relations, Poses poses, int steps) {
   const auto n = static_cast<Eigen::Index>(poses.size());
   const auto moved = [](const Pose& T, const Vector6d& m) {
@@ -104,7 +107,8 @@ Poses gauss_newton(const Relations& relations, Poses poses, int steps) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(6 * n);
     for (const auto& r : relations.relative) {
       const Pose T[2] = {poses.T_world_segment[r.i], poses.T_world_segment[r.j]};
-      const Eigen::Index at[2] = {6 * static_cast<Eigen::Index>(r.i), 6 * static_cast<Eigen::Index>(r.j)};
+      const Eigen::Index at[2] = {6 * static_cast<Eigen::Index>(r.i),
+                                  6 * static_cast<Eigen::Index>(r.j)};
       const Vector6d e = error_of(r, T[0], T[1]);
       Matrix6d J[2];
       for (int end = 0; end < 2; ++end)
@@ -120,7 +124,8 @@ Poses gauss_newton(const Relations& relations, Poses poses, int steps) {
         for (int b = 0; b < 2; ++b) {
           const Matrix6d block = J[a].transpose() * r.information * J[b];
           for (int row = 0; row < 6; ++row)
-            for (int col = 0; col < 6; ++col) entries.emplace_back(at[a] + row, at[b] + col, block(row, col));
+            for (int col = 0; col < 6; ++col)
+              entries.emplace_back(at[a] + row, at[b] + col, block(row, col));
         }
       }
     }
@@ -172,7 +177,8 @@ TEST_P(KnownGraph, ReachesTheCostThatASecondComputationFinds) {
   EXPECT_NEAR(cost / second, 1, 1e-6) << cost << " against " << second;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, KnownGraph, testing::Values("parking-garage.g2o", "sphere2500.g2o"));
+INSTANTIATE_TEST_SUITE_P(Files, KnownGraph,
+                         testing::Values("parking-garage.g2o", "sphere2500.g2o"));
 
 TEST(PlanarGraph, ReachesThePublishedOptimumOfIntelWithTheChordalError) {
   const auto path = graph_file("intel.g2o");
@@ -205,7 +211,9 @@ TEST(Relations, OfWhichATenthAreFalseLoopsAreLetGo) {
   GraphOptions options;
   options.loss = Loss::geman_mcclure;
   options.anneal_from = 50;  // with scale 0.5 m: from 100 times relation_scale
-  const auto solved = [&] { return solve_pose_graph(g.drifted, {}, &relations, options, in_order); };
+  const auto solved = [&] {
+    return solve_pose_graph(g.drifted, {}, &relations, options, in_order);
+  };
   const double clean = ate(solved().poses, g.truth);
   std::vector<std::size_t> planted;
   for (std::size_t k = 0; k < g.edges.size(); ++k)
@@ -232,7 +240,8 @@ TEST(Relations, ThatAreSequentialArePriorsWithoutARecordBesideMatches) {
   ASSERT_EQ(loops.relative.size(), 20u);
   const auto edges = g.matched();
   const auto records = [&](std::span<const MatchedEdge> matched, const Relations& relations) {
-    return solve_pose_graph(g.drifted, matched, &relations, GraphOptions(), in_order).metrics.edges.size();
+    return solve_pose_graph(g.drifted, matched, &relations, GraphOptions(), in_order)
+        .metrics.edges.size();
   };
   EXPECT_EQ(records(edges, chain), edges.size());
   EXPECT_EQ(records(edges, all), edges.size() + 20) << "loops keep theirs";
@@ -247,10 +256,14 @@ TEST(Relations, OfAChainHoldASegmentWhosePairsAreMissingBesideMatches) {
     if (hole(g.edges[k])) g.matches[k] = Matches();
   const auto result = solve_pose_graph(g.drifted, g.matched(), &chain, GraphOptions(), in_order);
   EXPECT_TRUE(result.warnings.empty());
-  for (const auto& note : result.metrics.notes) EXPECT_THAT(note, testing::Not(testing::HasSubstr("not joined")));
+  for (const auto& note : result.metrics.notes)
+    EXPECT_THAT(note, testing::Not(testing::HasSubstr("not joined")));
   const Pose error = g.truth.relative(9, 10).inverse() * result.poses.relative(9, 10);
   EXPECT_LT(error.translation.norm(), 0.2);
-  EXPECT_EQ(solve_pose_graph(g.drifted, g.matched(), nullptr, GraphOptions(), in_order).warnings.size(), 1u) << "without the chain it is a part of its own";
+  EXPECT_EQ(
+      solve_pose_graph(g.drifted, g.matched(), nullptr, GraphOptions(), in_order).warnings.size(),
+      1u)
+      << "without the chain it is a part of its own";
 }
 
 TEST(Relations, TheChordalErrorGivesNearlyTheSamePoses) {
@@ -268,15 +281,19 @@ TEST(Relations, AbsolutePosesAndPointsPutTheGraphIntoTheirFrame) {
   const Pose shifted(exp_rotation({0, 0, 2}), {1000, -500, 30});
   Relations points = relations_of(g, 6), one_pose = points;
   for (const std::uint32_t k : {0u, 7u, 15u})
-    points.points.push_back({k, {1, 2, 3}, shifted * (g.truth.T_world_segment[k] * Eigen::Vector3d(1, 2, 3)),
+    points.points.push_back({k,
+                             {1, 2, 3},
+                             shifted * (g.truth.T_world_segment[k] * Eigen::Vector3d(1, 2, 3)),
                              Eigen::Matrix3d::Identity() * 1e4});
-  one_pose.absolute.push_back({3, shifted * g.truth.T_world_segment[3], Matrix6d::Identity() * 1e6});
+  one_pose.absolute.push_back(
+      {3, shifted * g.truth.T_world_segment[3], Matrix6d::Identity() * 1e6});
   for (const auto* relations : {&points, &one_pose}) {
     const auto result = solve_pose_graph(g.drifted, {}, relations, least_squares(), in_order);
     double worst = 0;
     for (std::size_t k = 0; k < g.truth.size(); ++k)
       worst = std::max(worst, (result.poses.T_world_segment[k].translation -
-                               (shifted * g.truth.T_world_segment[k]).translation).norm());
+                               (shifted * g.truth.T_world_segment[k]).translation)
+                                  .norm());
     EXPECT_LT(worst, 0.5);
   }
 }

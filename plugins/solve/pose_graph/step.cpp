@@ -6,9 +6,11 @@ namespace {
 
 const std::vector<ChoiceOf<Loss>> losses = {
     {"none", Loss::none, "least squares"},
-    {"huber", Loss::huber, "weight 1, beyond the scale falling with 1 / r: large residuals still pull"},
+    {"huber", Loss::huber,
+     "weight 1, beyond the scale falling with 1 / r: large residuals still pull"},
     {"cauchy", Loss::cauchy, "weight falling with 1 / r^2"},
-    {"geman_mcclure", Loss::geman_mcclure, "weight falling with 1 / r^4: lets go of what is wrong"}};
+    {"geman_mcclure", Loss::geman_mcclure,
+     "weight falling with 1 / r^4: lets go of what is wrong"}};
 
 struct SolvePoseGraph : WholeStep {
   struct In {
@@ -31,46 +33,93 @@ struct SolvePoseGraph : WholeStep {
         .source("[Tang2024] 2.1, 2.4.1");
     is.input("poses", &In::poses, "where the segments are; the solver starts here");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
-    is.optional_input("relations", &In::relations, "measured relative and absolute poses and points; several are joined");
+    is.optional_input("relations", &In::relations,
+                      "measured relative and absolute poses and points; several are joined");
     is.scale(&In::scale);
     is.output("poses", &Out::poses, "where the segments are after solving");
     is.output("metrics", &Out::metrics, "cost, residual, and what became of each edge");
-    is.output("uncertainty", &Out::uncertainty, "with 'uncertainty: true', how well each pose is known beside the first: absolute poses with their information");
-    is.choice("loss", &Params::loss, losses).doc("how a pair's squared residual counts").source("[Tang2024] 2.1");
-    is.param("scale", &Params::scale).unit("m").range(1e-4, 1000)
-        .doc("residual of a pair at which the loss begins to let go; also a pair's standard deviation beside relations and odometry");
-    is.param("anneal_from", &Params::anneal_from).unit("m").range(1e-4, 1e6)
-        .doc("scale of the first round, shrinking geometrically to 'scale': lets wrong edges go one by one");
+    is.output("uncertainty", &Out::uncertainty,
+              "with 'uncertainty: true', how well each pose is known beside the first: absolute "
+              "poses with their information");
+    is.choice("loss", &Params::loss, losses)
+        .doc("how a pair's squared residual counts")
+        .source("[Tang2024] 2.1");
+    is.param("scale", &Params::scale)
+        .unit("m")
+        .range(1e-4, 1000)
+        .doc(
+            "residual of a pair at which the loss begins to let go; also a pair's standard "
+            "deviation beside relations and odometry");
+    is.param("anneal_from", &Params::anneal_from)
+        .unit("m")
+        .range(1e-4, 1e6)
+        .doc(
+            "scale of the first round, shrinking geometrically to 'scale': lets wrong edges go one "
+            "by one");
     is.param("hold_sequential", &Params::hold_sequential)
-        .doc("sequential edges keep pulling: with cauchy and geman_mcclure their pairs take huber instead");
+        .doc(
+            "sequential edges keep pulling: with cauchy and geman_mcclure their pairs take huber "
+            "instead");
     is.choice("edge_loss", &Params::edge_loss, losses)
         .doc("how the rms of an edge that is not sequential counts, on top of its pairs' losses");
-    is.param("edge_scale", &Params::edge_scale).unit("m").range(1e-4, 1000)
+    is.param("edge_scale", &Params::edge_scale)
+        .unit("m")
+        .range(1e-4, 1000)
         .doc("rms of an edge's pairs at which edge_loss begins to let go; annealed like 'scale'");
-    is.param("edge_weight", &Params::edge_weight).range(1, 1e9)
-        .doc("the most that all pairs of an edge weigh together, in pairs; none: every pair counts");
-    is.param("odometry_translation", &Params::odometry_translation).unit("m").range(1e-6, 1e6)
-        .doc("standard deviation of the way from each segment to the next, as the poses come; none: free");
-    is.param("odometry_rotation", &Params::odometry_rotation).unit("rad").range(1e-8, 10)
-        .doc("standard deviation of the turn from each segment to the next, as the poses come; none: free");
+    is.param("edge_weight", &Params::edge_weight)
+        .range(1, 1e9)
+        .doc(
+            "the most that all pairs of an edge weigh together, in pairs; none: every pair counts");
+    is.param("odometry_translation", &Params::odometry_translation)
+        .unit("m")
+        .range(1e-6, 1e6)
+        .doc(
+            "standard deviation of the way from each segment to the next, as the poses come; none: "
+            "free");
+    is.param("odometry_rotation", &Params::odometry_rotation)
+        .unit("rad")
+        .range(1e-8, 10)
+        .doc(
+            "standard deviation of the turn from each segment to the next, as the poses come; "
+            "none: free");
     is.choice("relation_error", &Params::relation_error,
               {{"g2o", RelationError::g2o, "[t; q.vec] of what is left, as g2o has it"},
-               {"chordal", RelationError::chordal, "difference of rotation matrices, as SE-Sync has it"}})
+               {"chordal", RelationError::chordal,
+                "difference of rotation matrices, as SE-Sync has it"}})
         .doc("how a relation is compared with the poses");
-    is.param("relation_scale", &Params::relation_scale).range(0.01, 1e6)
-        .doc("standard deviations at which the loss begins to let go of a relation that is not sequential");
-    is.param("rounds", &Params::rounds).range(1, 1000)
-        .doc("the most times that weights are refreshed; with anneal_from two thirds of them shrink the scale");
-    is.param("iterations", &Params::iterations).range(1, 10000)
+    is.param("relation_scale", &Params::relation_scale)
+        .range(0.01, 1e6)
+        .doc(
+            "standard deviations at which the loss begins to let go of a relation that is not "
+            "sequential");
+    is.param("rounds", &Params::rounds)
+        .range(1, 1000)
+        .doc(
+            "the most times that weights are refreshed; with anneal_from two thirds of them shrink "
+            "the scale");
+    is.param("iterations", &Params::iterations)
+        .range(1, 10000)
         .doc("the most iterations of Levenberg-Marquardt in one round");
     is.param("estimate_variance", &Params::estimate_variance)
-        .doc("edges count, beside sequential relations, by how far they disagree with each other instead of by 'scale' alone");
-    is.param("uncertainty", &Params::uncertainty).doc("compute how well each pose is known; only in space");
-    is.param("uncertainty_per_metre", &Params::uncertainty_per_metre).unit("%").range(0, 1)
-        .doc("standard deviation of a position, of its distance from the first, on top: a bias that all registrations share shows in no disagreement");
-    is.param("uncertainty_factor", &Params::uncertainty_factor).range(0.01, 1000)
-        .doc("standard deviations are multiplied by it, since edges that share a segment share its errors");
-    is.param("tolerance", &Params::tolerance).unit("m").range(0, 1)
+        .doc(
+            "edges count, beside sequential relations, by how far they disagree with each other "
+            "instead of by 'scale' alone");
+    is.param("uncertainty", &Params::uncertainty)
+        .doc("compute how well each pose is known; only in space");
+    is.param("uncertainty_per_metre", &Params::uncertainty_per_metre)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "standard deviation of a position, of its distance from the first, on top: a bias that "
+            "all registrations share shows in no disagreement");
+    is.param("uncertainty_factor", &Params::uncertainty_factor)
+        .range(0.01, 1000)
+        .doc(
+            "standard deviations are multiplied by it, since edges that share a segment share its "
+            "errors");
+    is.param("tolerance", &Params::tolerance)
+        .unit("m")
+        .range(0, 1)
         .doc("rounds end when no pose moves more than this, a rotation counting at 10 m");
   }
 
@@ -86,9 +135,9 @@ struct SolvePoseGraph : WholeStep {
         edges.push_back({in.matches.edges().list[k], &*held[k]});
     }
     const Relations relations = joined(in.relations);
-    auto result = solve_pose_graph(
-        *in.poses, edges, in.relations.empty() ? nullptr : &relations, params,
-        [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    auto result =
+        solve_pose_graph(*in.poses, edges, in.relations.empty() ? nullptr : &relations, params,
+                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     for (const auto& warning : result.warnings) context.warn(warning);
     return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
   }

@@ -22,7 +22,8 @@ struct Solved {
   Metrics metrics;
 };
 
-Solved run(const TestGraph& g, const ParameterValues& values, TestContext& context, bool wire_matches = true) {
+Solved run(const TestGraph& g, const ParameterValues& values, TestContext& context,
+           bool wire_matches = true) {
   auto held = std::make_shared<Held>();
   held->graph = {static_cast<std::uint32_t>(g.truth.size()), g.edges};
   for (const auto& m : g.matches) held->items.push_back(any_value(m));
@@ -40,7 +41,8 @@ Solved run(const TestGraph& g, const ParameterValues& values, TestContext& conte
 TEST(SolvePoseGraph, TakesItsParametersAndGivesPosesAndARecordForEachEdge) {
   const auto g = circle(20, 2, 1);
   TestContext context;
-  const auto solved = run(g, {{"loss", std::string("geman_mcclure")}, {"anneal_from", 10.0}}, context);
+  const auto solved =
+      run(g, {{"loss", std::string("geman_mcclure")}, {"anneal_from", 10.0}}, context);
   EXPECT_LT(ate(solved.poses, g.truth), 0.1);
   ASSERT_EQ(solved.metrics.edges.size(), g.edges.size());
   EXPECT_EQ(solved.metrics.edges[0].kept, 40u);
@@ -60,22 +62,28 @@ TEST(SolvePoseGraph, RefusesToSolveNothing) {
   EXPECT_THROW(run(circle(6, 1, 1), {}, context, false), Error);
 }
 
-Relations planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs, bool planar = true) {
+Relations planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs,
+                       bool planar = true) {
   Relations relations;
   relations.planar = planar;
   for (const auto& [i, j] : pairs)
-    relations.relative.push_back({i, j, Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}), 100 * Matrix6d::Identity()});
+    relations.relative.push_back({i, j, Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}),
+                                  100 * Matrix6d::Identity()});
   return relations;
 }
 
-Poses solve(const std::vector<Relations>& relations, const ParameterValues& values, TestContext& context, Metrics* metrics = nullptr) {
+Poses solve(const std::vector<Relations>& relations, const ParameterValues& values,
+            TestContext& context, Metrics* metrics = nullptr) {
   PortInput inputs[4];
   Poses start;
-  for (int k = 0; k < 5; ++k) start.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1.1 * k, 0, 0));
+  for (int k = 0; k < 5; ++k)
+    start.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(),
+                                       Eigen::Vector3d(1.1 * k, 0, 0));
   inputs[0].wired = inputs[2].wired = true;
   inputs[0].one = any_value(start);
   for (std::size_t k = 0; k < relations.size(); ++k)
-    inputs[2].several.emplace_back(std::string(1, static_cast<char>('a' + k)), any_value(relations[k]));
+    inputs[2].several.emplace_back(std::string(1, static_cast<char>('a' + k)),
+                                   any_value(relations[k]));
   PortOutput outputs[3];
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters(values).get(), inputs, outputs, context);
@@ -86,7 +94,9 @@ Poses solve(const std::vector<Relations>& relations, const ParameterValues& valu
 TEST(SolvePoseGraph, JoinsSeveralRelations) {
   TestContext context;
   Metrics metrics;
-  const auto poses = solve({planar_chain({{0, 1}, {1, 2}}), Relations(), planar_chain({{2, 3}, {3, 4}})}, {}, context, &metrics);
+  const auto poses =
+      solve({planar_chain({{0, 1}, {1, 2}}), Relations(), planar_chain({{2, 3}, {3, 4}})}, {},
+            context, &metrics);
   EXPECT_NEAR(poses.T_world_segment[4].translation.x(), 4, 1e-9);
   EXPECT_EQ(metrics.edges.size(), 4u);
   EXPECT_TRUE(context.warnings.empty());
@@ -98,7 +108,8 @@ TEST(SolvePoseGraph, RefusesToMixThePlaneWithSpace) {
     solve({planar_chain({{0, 1}}), planar_chain({{1, 2}}, false)}, {}, context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "relations 'a' lie in the plane and 'b' do not; they cannot be solved together");
+    EXPECT_STREQ(e.what(),
+                 "relations 'a' lie in the plane and 'b' do not; they cannot be solved together");
   }
 }
 
@@ -108,14 +119,17 @@ TEST(SolvePoseGraph, TakesARelationOverALeftOutPoseForSequential) {
   // 1 was dropped: 0-2 has no loss, so that the wrong 0-4 does not win against it.
   auto relations = planar_chain({{0, 2}, {2, 3}, {3, 4}, {0, 4}});
   relations.relative[3].T_i_j.translation.x() = 9;
-  const auto poses = solve({relations}, {{"loss", std::string("geman_mcclure")}}, context, &metrics);
+  const auto poses =
+      solve({relations}, {{"loss", std::string("geman_mcclure")}}, context, &metrics);
   EXPECT_NEAR(poses.T_world_segment[4].translation.x(), 4, 0.01);
   EXPECT_NEAR(poses.T_world_segment[1].translation.x(), 1.1, 1e-9);
   EXPECT_EQ(metrics.edges[0].kind, EdgeKind::sequential);
   EXPECT_EQ(metrics.edges[3].kind, EdgeKind::loop);
   EXPECT_EQ(metrics.edges[3].fate, "rejected");
   EXPECT_TRUE(context.warnings.empty());
-  EXPECT_THAT(metrics.notes, testing::ElementsAre("segments 1 are named by no relation and keep their place after the one before"));
+  EXPECT_THAT(metrics.notes,
+              testing::ElementsAre(
+                  "segments 1 are named by no relation and keep their place after the one before"));
 }
 
 TEST(SolvePoseGraph, RefusesParametersThatDoNotGoTogether) {

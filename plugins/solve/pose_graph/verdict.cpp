@@ -5,9 +5,9 @@
 namespace plumb {
 
 const char* fate_of(double mean_weight) {
-  return mean_weight >= kept_from         ? "kept"
+  return mean_weight >= kept_from        ? "kept"
          : mean_weight >= rejected_under ? "down-weighted"
-                                          : "rejected";
+                                         : "rejected";
 }
 
 void Verdict::add(const EdgeState& state) {
@@ -71,10 +71,13 @@ std::vector<std::string> Verdict::notes() const {
   auto parts = firm.list();
   drop_left_out(parts);
   if (!left_out_.empty())
-    notes.push_back("segments " + runs_of(left_out_) + " are named by no relation and keep their place after the one before");
+    notes.push_back("segments " + runs_of(left_out_) +
+                    " are named by no relation and keep their place after the one before");
   if (prior_ && parts.size() > 1) {
-    std::string sentence = "the graph falls into " + std::to_string(parts.size()) + " parts that only the odometry joins (segments ";
-    for (std::size_t n = 0; n < std::min<std::size_t>(parts.size(), 6); ++n) sentence += (n ? "; " : "") + runs_of(parts[n]);
+    std::string sentence = "the graph falls into " + std::to_string(parts.size()) +
+                           " parts that only the odometry joins (segments ";
+    for (std::size_t n = 0; n < std::min<std::size_t>(parts.size(), 6); ++n)
+      sentence += (n ? "; " : "") + runs_of(parts[n]);
     notes.push_back(sentence + (parts.size() > 6 ? "; and more)" : ")"));
   }
   for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
@@ -89,11 +92,11 @@ std::vector<std::string> Verdict::notes() const {
   return notes;
 }
 
-std::vector<std::string> Verdict::warnings(
-    std::vector<std::vector<std::uint32_t>> parts) const {
+std::vector<std::string> Verdict::warnings(std::vector<std::vector<std::uint32_t>> parts) const {
   drop_left_out(parts);
   if (parts.size() < 2) return {};
-  std::string sentence = "the graph falls into " + std::to_string(parts.size()) + " parts (segments ";
+  std::string sentence =
+      "the graph falls into " + std::to_string(parts.size()) + " parts (segments ";
   for (std::size_t n = 0; n < parts.size(); ++n) {
     if (n == 6 && parts.size() > 7) {
       sentence += "; and " + std::to_string(parts.size() - n) + " more";
@@ -101,9 +104,10 @@ std::vector<std::string> Verdict::warnings(
     }
     sentence += (n ? "; " : "") + runs_of(parts[n]);
   }
-  return {sentence + "), which no edge with pairs joins: each is solved by itself and keeps its place "
-                     "after the segment before it; give more edges, or odometry_translation and "
-                     "odometry_rotation"};
+  return {sentence +
+          "), which no edge with pairs joins: each is solved by itself and keeps its place "
+          "after the segment before it; give more edges, or odometry_translation and "
+          "odometry_rotation"};
 }
 
 }  // namespace plumb

@@ -5,7 +5,8 @@
 
 namespace plumb {
 
-/// Mean weight from which an edge counts as kept, and under which as rejected; between them it is down-weighted.
+/// Mean weight from which an edge counts as kept, and under which as rejected; between them it is
+/// down-weighted.
 inline constexpr double kept_from = 0.5, rejected_under = 0.05;
 const char* fate_of(double mean_weight);
 
@@ -15,7 +16,8 @@ class Verdict {
   void add(const EdgeState& edge);
   /// A relation with the distance [m] that is left, and its robust weight.
   void add(const RelativePose& relation, bool sequential, double residual, double weight);
-  /// Poses in order that nothing names, as of dropped scans: they are a note, not parts of their own.
+  /// Poses in order that nothing names, as of dropped scans: they are a note, not parts of their
+  /// own.
   void left_out(std::vector<std::uint32_t> poses) { left_out_ = std::move(poses); }
   void joined_by_prior() { prior_ = true; }
 

@@ -130,7 +130,9 @@ struct Sorted {
 /// CARMEN's messages have names in capitals; blank lines and comments (#) are none and wanted.
 bool is_message(std::string_view name) {
   if (name.empty() || name.front() == '#') return true;
-  return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) || std::isdigit(c) || c == '_'; }) &&
+  return std::all_of(
+             name.begin(), name.end(),
+             [](unsigned char c) { return std::isupper(c) || std::isdigit(c) || c == '_'; }) &&
          std::isupper(static_cast<unsigned char>(name.front()));
 }
 

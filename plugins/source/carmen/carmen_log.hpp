@@ -42,7 +42,7 @@ struct CarmenLog {
   std::size_t odometry_lines = 0;  ///< ODOM
   std::size_t second_laser = 0;    ///< scans of another laser, left out
   std::size_t repeated = 0;        ///< the same laser's scans in another kind of message, left out
-  std::size_t no_message = 0;  ///< lines that begin with no name of a message, left out
+  std::size_t no_message = 0;      ///< lines that begin with no name of a message, left out
   std::size_t cut = 0;  ///< messages with fewer or more words than they announce, left out
   std::size_t not_numbers =
       0;  ///< messages with a word that should be a number and is none, left out

@@ -274,7 +274,8 @@ TEST_F(CarmenLogs, AreRefusedWhenTheirPackedDataAreCutOrDamaged) {
 TEST_F(CarmenLogs, AreRefusedWhenTheirPackedDataHoldFarMoreThanALog) {
   const std::string same(std::size_t{64} << 20, 'a');
   EXPECT_THAT(refused(bzipped(same)), HasSubstr("unpacks to more than 8 MiB"));
-  EXPECT_THAT(refused(gzipped(same)), HasSubstr("if it is a log, unpack it with gzip -d and give that"));
+  EXPECT_THAT(refused(gzipped(same)),
+              HasSubstr("if it is a log, unpack it with gzip -d and give that"));
   std::string pieces;  // many small streams
   for (int k = 0; k < 40; ++k) pieces += bzipped(std::string(1 << 20, 'b'));
   EXPECT_THAT(refused(pieces), HasSubstr("unpacks to more than 8 MiB"));
@@ -300,10 +301,11 @@ TEST_F(CarmenLogs, LeaveOutDamagedScansWithOneWarning) {
 
 TEST_F(CarmenLogs, LeaveOutScansWhoseBeamsPointNowhere) {
   const auto scan = [](const std::string& start, const std::string& step, double stamp) {
-    return "ROBOTLASER1 0 " + start + " 1.0 " + step + " 30 0.01 0 3 1 2 30 0 0 0 0 0 0 0 0 0 0 0 0 " + std::to_string(stamp) + " host 1\n";
+    return "ROBOTLASER1 0 " + start + " 1.0 " + step +
+           " 30 0.01 0 3 1 2 30 0 0 0 0 0 0 0 0 0 0 0 0 " + std::to_string(stamp) + " host 1\n";
   };
-  auto log = read(scan("-0.5", "0.5", 1) + scan("-0.5", "0.5", 2) + scan("inf", "0.5", 3) + scan("-inf", "0.5", 4) + scan("0", "1e999", 5) +
-                  scan("nan", "0.5", 6));
+  auto log = read(scan("-0.5", "0.5", 1) + scan("-0.5", "0.5", 2) + scan("inf", "0.5", 3) +
+                  scan("-inf", "0.5", 4) + scan("0", "1e999", 5) + scan("nan", "0.5", 6));
   EXPECT_EQ(log.frames.keys.size(), 2u);
   EXPECT_EQ(log.count("damaged scans left out"), 4u);
 }

@@ -46,7 +46,8 @@ struct Growing {
   std::size_t most = 0;    ///< [byte] that it may have
 
   std::size_t room() {
-    if (filled == bytes.size()) bytes.resize(std::min(most + 1, std::max<std::size_t>(1 << 20, 2 * filled)));
+    if (filled == bytes.size())
+      bytes.resize(std::min(most + 1, std::max<std::size_t>(1 << 20, 2 * filled)));
     return bytes.size() - filled;
   }
 };
@@ -59,7 +60,8 @@ void unpack_stream(const std::filesystem::path& file, std::string_view& packed, 
   for (;;) {
     if (text.filled > text.most)
       io::refuse(file, "unpacks to more than " + std::to_string(text.most >> 20) +
-                           " MiB, which is far more than a log of its size does: look what it holds; if it is a log, unpack it with " +
+                           " MiB, which is far more than a log of its size does: look what it "
+                           "holds; if it is a log, unpack it with " +
                            std::string(Codec::name) + " -d and give that");
     constexpr std::size_t block = std::size_t{1} << 30;
     const std::size_t give = std::min(packed.size(), block);
@@ -102,7 +104,8 @@ std::string unpack(const std::filesystem::path& file, std::string_view packed, s
 std::string unpacked(const std::filesystem::path& file) {
   const io::FileBytes bytes(file);
   const std::string_view view = bytes.view();
-  // Logs of ranges shrink to between a quarter and a tenth. More is taken of small files, which may hold little but the same words.
+  // Logs of ranges shrink to between a quarter and a tenth. More is taken of small files, which may
+  // hold little but the same words.
   constexpr std::size_t always = std::size_t{8} << 20, times = 16;
   const std::size_t most = always + times * view.size();
   if (view.starts_with(Bzip2::magic)) return unpack<Bzip2>(file, view, most);

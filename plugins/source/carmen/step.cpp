@@ -66,7 +66,8 @@ struct Carmen : WholeStep {
     if (std::filesystem::is_directory(params.path)) {
       const auto inside = params.path / "log.clf";
       io::refuse(params.path, "is a folder: give the log in it" +
-                                  (std::filesystem::exists(inside) ? ", " + inside.string() : std::string(", a .clf file")));
+                                  (std::filesystem::exists(inside) ? ", " + inside.string()
+                                                                   : std::string(", a .clf file")));
     }
     const std::string text = unpacked(params.path);
     auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));

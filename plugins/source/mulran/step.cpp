@@ -31,7 +31,9 @@ struct MulRan : WholeStep {
         .required()
         .doc("folder with Ouster/*.bin or *.bin, named by their stamps [ns]");
     is.param("trajectory", &Params::trajectory)
-        .doc("TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv); none: odometry.tum in the folder");
+        .doc(
+            "TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv); none: odometry.tum in the "
+            "folder");
     is.choice("poses_of", &Params::poses_of,
               {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
                {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})

@@ -16,11 +16,16 @@ struct SourceTrajectory : WholeStep {
   static void describe(Declaration<SourceTrajectory>& is) {
     is.name("source.trajectory").version(1).source("[Sturm2012], the format");
     is.summary("Reads a trajectory, as another program left it.");
-    is.output("trajectory", &Out::trajectory, "the poses in the order of the file; stamps may step back");
-    is.param("path", &Params::path).required().doc("text file with a line 'stamp tx ty tz qx qy qz qw' for each pose (TUM)");
+    is.output("trajectory", &Out::trajectory,
+              "the poses in the order of the file; stamps may step back");
+    is.param("path", &Params::path)
+        .required()
+        .doc("text file with a line 'stamp tx ty tz qx qy qz qw' for each pose (TUM)");
   }
 
-  Out run(const In&, const Params& params, Context&) const { return {read_tum(params.path, StampOrder::any)}; }
+  Out run(const In&, const Params& params, Context&) const {
+    return {read_tum(params.path, StampOrder::any)};
+  }
 };
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 namespace plumb {
 
-Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames, std::size_t after) {
+Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
+                        std::size_t after) {
   std::vector<std::uint8_t> takes_part(count, edges ? 0 : 1);
   if (edges)
     for (const Edge& e : edges->list) takes_part[e.i] = takes_part[e.j] = 1;
@@ -15,12 +16,14 @@ Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frame
     place[k] = static_cast<std::uint32_t>(windows.members.size());
   }
 
-  // Runs that no window reaches over: `start` is the first place of a place's run, `stop` the end of it.
+  // Runs that no window reaches over: `start` is the first place of a place's run, `stop` the end
+  // of it.
   const std::size_t n = windows.members.size();
   std::vector<std::uint8_t> goes_on(n, edges ? 0 : 1);
   if (edges)
     for (const Edge& e : edges->list)
-      if (e.kind == EdgeKind::sequential && place[e.j] == place[e.i] + 1) goes_on[place[e.j] - 1] = 1;
+      if (e.kind == EdgeKind::sequential && place[e.j] == place[e.i] + 1)
+        goes_on[place[e.j] - 1] = 1;
   std::vector<std::uint32_t> start(n), stop(n);
   for (std::uint32_t p = 0; p < n; ++p) start[p] = p > 0 && goes_on[p] ? start[p - 1] : p;
   for (std::size_t p = n; p-- > 0;)
@@ -31,8 +34,10 @@ Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frame
   for (std::size_t k = 0; k < count; ++k) {
     if (place[k] == 0) continue;  // nobody takes part yet
     const std::size_t newest = place[k] - 1;
-    windows.first[k] = std::max(start[newest], static_cast<std::uint32_t>(newest + 1 > frames ? newest + 1 - frames : 0));
-    windows.end[k] = static_cast<std::uint32_t>(std::min<std::size_t>(stop[newest], newest + 1 + after));
+    windows.first[k] = std::max(
+        start[newest], static_cast<std::uint32_t>(newest + 1 > frames ? newest + 1 - frames : 0));
+    windows.end[k] =
+        static_cast<std::uint32_t>(std::min<std::size_t>(stop[newest], newest + 1 + after));
   }
   return windows;
 }

@@ -13,9 +13,11 @@ struct Windows {
   std::vector<std::uint32_t> first, end;  ///< of each scan's group, places in `members`
 };
 
-/// For each of `count` scans the last `frames` that take part up to it, itself included if it does, and the next `after`. Without edges all
-/// take part. With them those do that an edge touches, and a window does not reach over a place where it started again: where a
-/// scan is joined to the one before that takes part by no edge of kind sequential.
-Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames, std::size_t after);
+/// For each of `count` scans the last `frames` that take part up to it, itself included if it does,
+/// and the next `after`. Without edges all take part. With them those do that an edge touches, and
+/// a window does not reach over a place where it started again: where a scan is joined to the one
+/// before that takes part by no edge of kind sequential.
+Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
+                        std::size_t after);
 
 }  // namespace plumb

@@ -33,7 +33,8 @@ TEST(SlidingWindow, LeavesOutDroppedScansAndReachesOverThem) {
   const Edges edges = chain(5, {{0, 1}, {1, 3}, {3, 4}});
   const auto windows = sliding_windows(5, &edges, 3, 1);
   EXPECT_THAT(window(windows, 3), ElementsAre(0, 1, 3, 4));
-  EXPECT_THAT(window(windows, 2), ElementsAre(0, 1, 3));  // a dropped one has the window of the accepted one before it
+  EXPECT_THAT(window(windows, 2),
+              ElementsAre(0, 1, 3));  // a dropped one has the window of the accepted one before it
 }
 
 TEST(SlidingWindow, DoesNotReachOverWhereItStartedAgain) {
@@ -50,7 +51,8 @@ TEST(SlidingWindow, IsEmptyBeforeTheFirstAcceptedScan) {
   EXPECT_THAT(sliding_windows(0, nullptr, 4, 0).members, IsEmpty());
 }
 
-/// Scans of one corner point at (7, 3) of the world, seen from different poses; each with a point of its own.
+/// Scans of one corner point at (7, 3) of the world, seen from different poses; each with a point
+/// of its own.
 struct Drive {
   Poses poses;
   std::vector<Segment> scans;
@@ -86,7 +88,8 @@ std::vector<Segment> groups_of(const Drive& drive, ParameterValue leaf) {
   inputs[1].one = any_value(drive.poses);
   std::vector<PortOutput> outputs(1);
   TestContext context;
-  step.run(step.parameters({{"frames", std::int64_t{3}}, {"leaf", leaf}}).get(), inputs, outputs, context);
+  step.run(step.parameters({{"frames", std::int64_t{3}}, {"leaf", leaf}}).get(), inputs, outputs,
+           context);
   std::vector<Segment> groups;
   for (const auto& value : outputs[0].many) groups.push_back(*value.as<Segment>());
   return groups;
@@ -110,7 +113,8 @@ TEST(SlidingWindow, StitchesInTheNewestScansCoordinates) {
 
 TEST(SlidingWindow, ThinsToOnePointACell) {
   const auto groups = groups_of(Drive(), 0.5);
-  EXPECT_EQ(groups[4].cloud.size(), 4u);  // the corner, seen three times, and three points of their own
+  EXPECT_EQ(groups[4].cloud.size(),
+            4u);  // the corner, seen three times, and three points of their own
   EXPECT_LT((groups[4].cloud.point(0) - Drive().scans[4].cloud.point(0)).norm(), 1e-5f);
 }
 

@@ -36,8 +36,10 @@ void Group::stitch() {
     for (std::size_t k = 0; k < member.scan->size(); ++k) {
       const float px = member.scan->x[k], py = member.scan->y[k];
       const Eigen::Vector3f point(x + c * px - s * py, y + s * px + c * py, 0);
-      if (spots) spots->add(point.x(), point.y(), 0);
-      else cloud_.add(point);
+      if (spots)
+        spots->add(point.x(), point.y(), 0);
+      else
+        cloud_.add(point);
     }
   }
   if (spots) cloud_ = spots->means<Cloud>();
@@ -65,22 +67,28 @@ IcpResult Group::lay(const Cloud& scan, const PlanarPose& start, const IcpOption
 }
 
 const LikelihoodField& Group::field() const {
-  if (!field_) field_.emplace(cloud_.x, cloud_.y, search_resolution, search_sigma, 3 * search_sigma, 5);
+  if (!field_)
+    field_.emplace(cloud_.x, cloud_.y, search_resolution, search_sigma, 3 * search_sigma, 5);
   return *field_;
 }
 
-double Group::score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start, bool known) const {
+double Group::score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start,
+                    bool known) const {
   const PlanarPose T_world_group = newest();
   const PlanarPose T = T_world_group.inverse() * pose;
-  return score_of(field(), scan.x, scan.y, T) - trust_in(T_world_group.inverse() * start, known).lost(T);
+  return score_of(field(), scan.x, scan.y, T) -
+         trust_in(T_world_group.inverse() * start, known).lost(T);
 }
 
-std::optional<PlanarPose> Group::search(const Cloud& scan, const PlanarPose& start, bool known, Breadth breadth) const {
+std::optional<PlanarPose> Group::search(const Cloud& scan, const PlanarPose& start, bool known,
+                                        Breadth breadth) const {
   const PlanarPose centre = newest().inverse() * start;
   const double reach = breadth == Breadth::near ? options_.search_reach : options_.lost_reach;
-  const auto peak = best_pose(field(), scan.x, scan.y,
-                              {centre, reach, reach, breadth == Breadth::near ? options_.search_turn : M_PI, trust_in(centre, known)},
-                              yaw_step_for(scan.x, scan.y, search_resolution), 0);
+  const auto peak =
+      best_pose(field(), scan.x, scan.y,
+                {centre, reach, reach, breadth == Breadth::near ? options_.search_turn : M_PI,
+                 trust_in(centre, known)},
+                yaw_step_for(scan.x, scan.y, search_resolution), 0);
   if (!peak) return std::nullopt;
   return newest() * peak->pose;
 }

@@ -12,18 +12,18 @@
 namespace plumb {
 
 struct GroupOptions {
-  std::uint32_t frames = 10;            ///< scans in the window
-  std::optional<double> leaf = 0.05;    ///< [m] points so near to one that is kept become one with it
-  double radius = 0.25;                 ///< [m] of the neighbourhood that a normal is taken from
-  double search_reach = 0.6;            ///< [m] half the width of a search
-  double search_turn = 0.5;             ///< [rad] half the width of a search in heading
-  double lost_reach = 1.5;              ///< [m] half the width of a search in all headings
+  std::uint32_t frames = 10;          ///< scans in the window
+  std::optional<double> leaf = 0.05;  ///< [m] points so near to one that is kept become one with it
+  double radius = 0.25;               ///< [m] of the neighbourhood that a normal is taken from
+  double search_reach = 0.6;          ///< [m] half the width of a search
+  double search_turn = 0.5;           ///< [rad] half the width of a search in heading
+  double lost_reach = 1.5;            ///< [m] half the width of a search in all headings
 };
 
 enum class Breadth { near, all_headings };
 
-/// Holds up to `frames` scans [m, in the plane], each with its pose; scans are referred to and must outlive the group. The group's points are in the
-/// newest scan's coordinates.
+/// Holds up to `frames` scans [m, in the plane], each with its pose; scans are referred to and must
+/// outlive the group. The group's points are in the newest scan's coordinates.
 class Group {
  public:
   explicit Group(const GroupOptions& options) : options_(options) {}
@@ -33,16 +33,20 @@ class Group {
   const PlanarPose& newest() const { return scans_.back().T_world_scan; }
   const Cloud& points() const { return cloud_; }
   void clear() { scans_.clear(); }
-  /// The scan becomes the newest; the oldest goes when there are more than `frames`. `with_normals`: those of lines.
+  /// The scan becomes the newest; the oldest goes when there are more than `frames`.
+  /// `with_normals`: those of lines.
   void add(const Cloud& scan, const PlanarPose& T_world_scan, bool with_normals);
 
-  /// Lays a scan on by ICP from `start` on; both poses are T_world_scan. The group must not be empty.
+  /// Lays a scan on by ICP from `start` on; both poses are T_world_scan. The group must not be
+  /// empty.
   IcpResult lay(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const;
-  /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both T_world_scan. `known`: the start comes from odometry, and little
-  /// off is far off.
-  double score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start, bool known) const;
+  /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both
+  /// T_world_scan. `known`: the start comes from odometry, and little off is far off.
+  double score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start,
+               bool known) const;
   /// The best pose of the window round `start`, if any, T_world_scan.
-  std::optional<PlanarPose> search(const Cloud& scan, const PlanarPose& start, bool known, Breadth breadth) const;
+  std::optional<PlanarPose> search(const Cloud& scan, const PlanarPose& start, bool known,
+                                   Breadth breadth) const;
 
  private:
   struct Member {

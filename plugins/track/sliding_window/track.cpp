@@ -11,14 +11,19 @@ namespace {
 class Tracker {
  public:
   Tracker(std::span<const Cloud* const> scans, const Poses& initial, const TrackOptions& options)
-      : scans_(scans), initial_(initial), options_(options), group_(options),
-        lines_(options.icp.metric == Metric::line), poses_(scans.size()) {
+      : scans_(scans),
+        initial_(initial),
+        options_(options),
+        group_(options),
+        lines_(options.icp.metric == Metric::line),
+        poses_(scans.size()) {
     result_.poses = initial;
     const auto moved = [&](const Pose& pose) {
       return pose.translation != initial.T_world_segment[0].translation ||
              pose.rotation.coeffs() != initial.T_world_segment[0].rotation.coeffs();
     };
-    has_odometry_ = std::any_of(initial.T_world_segment.begin(), initial.T_world_segment.end(), moved);
+    has_odometry_ =
+        std::any_of(initial.T_world_segment.begin(), initial.T_world_segment.end(), moved);
   }
 
   Tracked run(const Edges& chain) {
@@ -39,7 +44,8 @@ class Tracker {
   /// Places scan j of the edge; whether it fits.
   bool follow(const Edge& edge) {
     const bool known = has_odometry_;
-    const PlanarPose start = poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
+    const PlanarPose start =
+        poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
     IcpOptions icp = options_.icp;
     if (!known) icp.hold.reset();
     const Cloud& scan = *scans_[edge.j];
@@ -51,9 +57,12 @@ class Tracker {
       if (!peak) return;
       const IcpResult other = group_.lay(scan, *peak, icp);
       iterations += other.iterations;
-      if (group_.score(scan, other.T, start, known) > group_.score(scan, found.T, start, known)) found = other;
+      if (group_.score(scan, other.T, start, known) > group_.score(scan, found.T, start, known))
+        found = other;
     };
-    if (options_.search_below && found.overlap < (known ? *options_.search_below : std::max(*options_.search_below, options_.search_blind))) {
+    if (options_.search_below &&
+        found.overlap < (known ? *options_.search_below
+                               : std::max(*options_.search_below, options_.search_blind))) {
       ++result_.searched;
       search(Breadth::near);
       if (found.overlap < options_.least_overlap) search(Breadth::all_headings);
@@ -82,7 +91,8 @@ class Tracker {
 
   bool far(const PlanarPose& pose) const {
     const PlanarPose from = group_.newest();
-    return std::hypot(pose.x - from.x, pose.y - from.y) > options_.every || std::abs(wrapped(pose.yaw - from.yaw)) > options_.turn;
+    return std::hypot(pose.x - from.x, pose.y - from.y) > options_.every ||
+           std::abs(wrapped(pose.yaw - from.yaw)) > options_.turn;
   }
 
   void place(std::uint32_t k, PlanarPose pose) {
@@ -116,14 +126,18 @@ class Tracker {
 
 }  // namespace
 
-Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain, const TrackOptions& options) {
+Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
+              const TrackOptions& options) {
   if (initial.size() != scans.size() || chain.segments != scans.size())
-    throw Error("there are " + std::to_string(scans.size()) + " scans, " + std::to_string(initial.size()) +
-                " poses and a chain of " + std::to_string(chain.segments) + "; wire those of the same scans");
+    throw Error("there are " + std::to_string(scans.size()) + " scans, " +
+                std::to_string(initial.size()) + " poses and a chain of " +
+                std::to_string(chain.segments) + "; wire those of the same scans");
   for (std::size_t k = 0; k < chain.size(); ++k)
     if (chain.list[k].i >= chain.list[k].j || (k > 0 && chain.list[k].i != chain.list[k - 1].j))
-      throw Error("edge " + std::to_string(k) + " joins scans " + std::to_string(chain.list[k].i) + " and " + std::to_string(chain.list[k].j) +
-                  ", which does not go on from the edge before it: wire a chain, as gate.distance makes it");
+      throw Error("edge " + std::to_string(k) + " joins scans " + std::to_string(chain.list[k].i) +
+                  " and " + std::to_string(chain.list[k].j) +
+                  ", which does not go on from the edge before it: wire a chain, as gate.distance "
+                  "makes it");
   return Tracker(scans, initial, options).run(chain);
 }
 

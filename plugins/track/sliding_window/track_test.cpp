@@ -99,7 +99,8 @@ TEST(Track, SearchesWhereTheRobotWasTurnedAround) {
 TEST(Track, TakesTheOdometryWhereAScanFitsNowhereAndGoesOnAfterIt) {
   Drive drive(40, 1.0);
   for (std::size_t k = 0; k < drive.scans[20].size(); ++k)
-    drive.scans[20].x[k] = 40 + 0.2f * static_cast<float>(k), drive.scans[20].y[k] = 0;  // a wall far off
+    drive.scans[20].x[k] = 40 + 0.2f * static_cast<float>(k),
+    drive.scans[20].y[k] = 0;  // a wall far off
   const Tracked tracked = drive.follow(lines());
   EXPECT_EQ(tracked.unfit, 1u);
   EXPECT_EQ(tracked.restarts, 0u);
@@ -108,14 +109,18 @@ TEST(Track, TakesTheOdometryWhereAScanFitsNowhereAndGoesOnAfterIt) {
 
 TEST(Track, StartsTheWindowAgainWhenPatienceIsUsedUp) {
   Drive drive(40, 1.0);
-  // From scan 20 on the robot is in another place, 100 m off as far as points say: nothing fits until the window starts again.
+  // From scan 20 on the robot is in another place, 100 m off as far as points say: nothing fits
+  // until the window starts again.
   TrackOptions options = lines();
   options.patience = 3, options.search_below.reset();
   for (std::size_t k = 20; k < 40; ++k)
     for (std::size_t n = 0; n < drive.scans[k].size(); ++n) {
-      const Eigen::Vector2d p = Eigen::Rotation2Dd(drive.truth[k].yaw) * Eigen::Vector2d(drive.scans[k].x[n], drive.scans[k].y[n]);
-      const Eigen::Vector2d far = Eigen::Rotation2Dd(-drive.truth[k].yaw) * (1.7 * p + Eigen::Vector2d(100, 0));
-      drive.scans[k].x[n] = static_cast<float>(far.x()), drive.scans[k].y[n] = static_cast<float>(far.y());
+      const Eigen::Vector2d p = Eigen::Rotation2Dd(drive.truth[k].yaw) *
+                                Eigen::Vector2d(drive.scans[k].x[n], drive.scans[k].y[n]);
+      const Eigen::Vector2d far =
+          Eigen::Rotation2Dd(-drive.truth[k].yaw) * (1.7 * p + Eigen::Vector2d(100, 0));
+      drive.scans[k].x[n] = static_cast<float>(far.x()),
+      drive.scans[k].y[n] = static_cast<float>(far.y());
     }
   const Tracked tracked = drive.follow(options);
   EXPECT_EQ(tracked.restarts, 1u);
@@ -136,10 +141,15 @@ TEST(Track, PutsScansOutsideTheChainBetweenTheirNeighbours) {
   const Tracked tracked = drive.follow(lines());
   const auto& T = tracked.poses.T_world_segment;
   EXPECT_LT((T[3].translation - interpolate(T[2], T[5], 1. / 3).translation).norm(), 1e-12);
-  EXPECT_LT((tracked.poses.relative(7, 11).translation - drive.odometry.relative(7, 11).translation).norm(), 1e-12);
-  EXPECT_LT((tracked.poses.relative(0, 1).translation - drive.odometry.relative(0, 1).translation).norm(), 1e-12);
+  EXPECT_LT((tracked.poses.relative(7, 11).translation - drive.odometry.relative(7, 11).translation)
+                .norm(),
+            1e-12);
+  EXPECT_LT(
+      (tracked.poses.relative(0, 1).translation - drive.odometry.relative(0, 1).translation).norm(),
+      1e-12);
   drive.chain.list.clear();
-  EXPECT_EQ(drive.follow(lines()).poses.T_world_segment[11].translation, drive.odometry.T_world_segment[11].translation);
+  EXPECT_EQ(drive.follow(lines()).poses.T_world_segment[11].translation,
+            drive.odometry.T_world_segment[11].translation);
 }
 
 /// A corridor without ends: two walls as far as the laser sees.
@@ -149,8 +159,11 @@ Cloud corridor_scan(const PlanarPose& at, unsigned seed) {
   Cloud cloud;
   for (int k = 0; k < 360; ++k) {
     const double angle = M_PI * (k + 0.5) / 180, heading = at.yaw + angle;
-    const double range = ((std::sin(heading) > 0 ? 1 : -1) - at.y) / std::sin(heading) + noise(random);
-    if (range < 8) cloud.add({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)), 0});
+    const double range =
+        ((std::sin(heading) > 0 ? 1 : -1) - at.y) / std::sin(heading) + noise(random);
+    if (range < 8)
+      cloud.add({static_cast<float>(range * std::cos(angle)),
+                 static_cast<float>(range * std::sin(angle)), 0});
   }
   return cloud;
 }
@@ -158,10 +171,12 @@ Cloud corridor_scan(const PlanarPose& at, unsigned seed) {
 TEST(Track, StandsWhereTheOdometryStandsEvenBetweenBareWalls) {
   Drive drive(1);
   PlanarPose at;
-  drive.truth = {at}, drive.scans = {corridor_scan(at, 1)}, drive.odometry.T_world_segment = {in_space(at)};
+  drive.truth = {at}, drive.scans = {corridor_scan(at, 1)},
+  drive.odometry.T_world_segment = {in_space(at)};
   for (std::uint32_t k = 1; k < 80; ++k) {
     if (k < 30) at.x += 0.08;
-    drive.truth.push_back(at), drive.scans.push_back(corridor_scan(at, k)), drive.odometry.T_world_segment.push_back(in_space(at));
+    drive.truth.push_back(at), drive.scans.push_back(corridor_scan(at, k)),
+        drive.odometry.T_world_segment.push_back(in_space(at));
     drive.chain.list.push_back({k - 1, k});
   }
   drive.chain.segments = 80;
@@ -198,10 +213,14 @@ TEST(Track, RefusesPosesOfOtherScans) {
 TEST(TrackStep, GivesPosesAndWhatItCounted) {
   const Drive drive(20);
   std::vector<Segment> segments;
-  for (const Cloud& scan : drive.scans) segments.push_back(Segment().with(scan, std::vector<std::uint16_t>(scan.size(), 0)));
+  for (const Cloud& scan : drive.scans)
+    segments.push_back(Segment().with(scan, std::vector<std::uint16_t>(scan.size(), 0)));
   TestContext context;
   StepRun step(*plumb_module());
-  step.each("segments", segments).with("poses", drive.odometry).with("edges", drive.chain).set("hold", 0.05);
+  step.each("segments", segments)
+      .with("poses", drive.odometry)
+      .with("edges", drive.chain)
+      .set("hold", 0.05);
   EXPECT_LT(drive.error(step.run<Poses>("poses", context), 19), 0.02);
   EXPECT_GE(context.counts["iterations"], 19u);
   EXPECT_EQ(step.run<Metrics>("metrics", context).numbers[0].value, 19);

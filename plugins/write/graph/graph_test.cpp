@@ -1,9 +1,9 @@
-#include "graph_text.hpp"
-
 #include <gmock/gmock.h>
 
 #include <random>
 #include <sstream>
+
+#include "graph_text.hpp"
 
 namespace plumb {
 namespace {
@@ -34,7 +34,8 @@ Vector6d g2o_error(const Pose& Z, const Pose& T_i_j) {
 TEST(RelationOf, IsTheTruePoseForExactPairs) {
   std::mt19937 random(1);
   const Pose truth(exp_rotation({0.1, 0.2, 0.5}), {5, 3, 1});
-  const auto relation = relation_of({2, 4}, pairs(truth, 50, 0, random), truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
+  const auto relation = relation_of({2, 4}, pairs(truth, 50, 0, random),
+                                    truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
   ASSERT_TRUE(relation);
   EXPECT_EQ(relation->j, 4u);
   EXPECT_LT(g2o_error(relation->T_i_j, truth).norm(), 1e-5);
@@ -54,7 +55,8 @@ TEST(RelationOf, HasTheInformationWithWhichTheCostOfThePairsRises) {
   };
   const double least = cost(relation.T_i_j);
   for (int trial = 0; trial < 10; ++trial) {
-    const Pose moved = relation.T_i_j * Pose(exp_rotation(gauss3(random, 1e-4)), gauss3(random, 1e-3));
+    const Pose moved =
+        relation.T_i_j * Pose(exp_rotation(gauss3(random, 1e-4)), gauss3(random, 1e-3));
     const Vector6d e = g2o_error(relation.T_i_j, moved);
     EXPECT_NEAR(e.dot(relation.information * e) / (cost(moved) - least), 1, 0.01);
   }
@@ -80,7 +82,8 @@ TEST(RelationOf, NeedsThreePairs) {
 
 TEST(G2oText, HasVerticesTheFixedOneAndEdgesInUpperTriangles) {
   Poses poses;
-  poses.T_world_segment = {Pose(), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1.5, 0, -2))};
+  poses.T_world_segment = {Pose(),
+                           Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1.5, 0, -2))};
   Relations relations;
   relations.relative = {{0, 1, poses.relative(0, 1), Matrix6d::Identity() * 4}};
   EXPECT_EQ(g2o_text(poses, relations),
@@ -100,7 +103,10 @@ TEST(G2oText, IsPlanarAndKeepsTheFilesNumbersWhereTheRelationsAreAndDo) {
   information(5, 5) = 40;  // of q.z, so 10 of the angle
   relations.relative = {{0, 1, poses.relative(0, 1), information}};
   const auto text = g2o_text(poses, relations);
-  EXPECT_THAT(text, testing::StartsWith("VERTEX_SE2 7 0 0 0\nVERTEX_SE2 9 1 2 0.5\nFIX 7\nEDGE_SE2 7 9 1 2 0.5 1 0 0 1 0 10\n"));
+  EXPECT_THAT(
+      text,
+      testing::StartsWith(
+          "VERTEX_SE2 7 0 0 0\nVERTEX_SE2 9 1 2 0.5\nFIX 7\nEDGE_SE2 7 9 1 2 0.5 1 0 0 1 0 10\n"));
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 PairForm form_of(const Matches& matches, const Pose& T_j_i) {
   PairForm form;
   form.about.T_j_i = T_j_i;
-  for (const auto& p : matches.p) form.about.centre += p.cast<double>() / static_cast<double>(matches.size());
+  for (const auto& p : matches.p)
+    form.about.centre += p.cast<double>() / static_cast<double>(matches.size());
   PointPairSums points;
   PlanePairSums planes;
   const bool to_plane = matches.to_plane && matches.normal_q.size() == matches.size();
@@ -38,7 +39,9 @@ void put(std::string& text, double value) {
 }
 void put(std::string& text, const Pose& pose) {
   for (const double v : pose.translation) put(text, v);
-  for (const double v : {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}) put(text, v);
+  for (const double v :
+       {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()})
+    put(text, v);
 }
 void put_planar(std::string& text, const Pose& pose) {
   put(text, pose.translation.x());
@@ -58,7 +61,8 @@ std::optional<RelativePose> relation_of(const Edge& edge, const Matches& matches
   const double left = form.residual(R, T_j_i.translation).squaredNorm() / std::max(1.0, rows - 6);
   const double sigma2 = noise ? *noise * *noise : std::max(left, 1e-6);
 
-  // T_i_j moves to T_i_j (exp(w), v), so T_j_i moves to (exp(-w) R, exp(-w) t - v), and w = 2 q.vec.
+  // T_i_j moves to T_i_j (exp(w), v), so T_j_i moves to (exp(-w) R, exp(-w) t - v), and w = 2
+  // q.vec.
   const auto by = form.jacobian(R);
   Eigen::Matrix<double, 13, 6> jacobian;
   jacobian << -by.leftCols<3>(),
@@ -83,7 +87,8 @@ std::string g2o_text(const Poses& poses, const Relations& relations) {
   for (const auto& r : relations.relative) {
     text += (planar ? "EDGE_SE2" : "EDGE_SE3:QUAT") + id(r.i) + id(r.j);
     planar ? put_planar(text, r.T_i_j) : put(text, r.T_i_j);
-    const std::vector<int> axes = planar ? std::vector<int>{0, 1, 5} : std::vector<int>{0, 1, 2, 3, 4, 5};
+    const std::vector<int> axes =
+        planar ? std::vector<int>{0, 1, 5} : std::vector<int>{0, 1, 2, 3, 4, 5};
     for (std::size_t a = 0; a < axes.size(); ++a)
       for (std::size_t b = a; b < axes.size(); ++b) {
         // A planar file has the angle where space has q.vec, which is half of it.

@@ -24,22 +24,30 @@ struct WriteGraph : WholeStep {
   };
 
   static void describe(Declaration<WriteGraph>& is) {
-    is.name("write.graph").version(1).summary("Writes the pose graph as a g2o file, for other solvers and viewers.");
+    is.name("write.graph")
+        .version(1)
+        .summary("Writes the pose graph as a g2o file, for other solvers and viewers.");
     is.input("poses", &In::poses, "the vertices");
-    is.optional_input("matches", &In::matches, "point pairs: each edge becomes the relative pose that fits them best");
+    is.optional_input("matches", &In::matches,
+                      "point pairs: each edge becomes the relative pose that fits them best");
     is.optional_input("relations", &In::relations, "relative poses, written as they are");
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
-    is.param("noise", &Params::noise).unit("m").range(1e-6, 1000)
-        .doc("standard deviation of a pair, for the edges' information; none: what each edge's pairs have left after the fit");
+    is.param("noise", &Params::noise)
+        .unit("m")
+        .range(1e-6, 1000)
+        .doc(
+            "standard deviation of a pair, for the edges' information; none: what each edge's "
+            "pairs have left after the fit");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     Relations graph;
     if (in.relations) graph = *in.relations;
     if (!graph.ids.empty() && graph.ids.size() != in.poses->size())
-      throw Error("the relations have " + std::to_string(graph.ids.size()) + " vertices but there are " +
-                  std::to_string(in.poses->size()) + " poses; wire poses of the same graph");
+      throw Error("the relations have " + std::to_string(graph.ids.size()) +
+                  " vertices but there are " + std::to_string(in.poses->size()) +
+                  " poses; wire poses of the same graph");
     if (in.matches) {
       const auto& edges = in.matches.edges().list;
       std::vector<std::optional<RelativePose>> found(edges.size());

@@ -18,13 +18,15 @@ class BitWriter {
     fill_ -= 64;
     word_ = fill_ ? value >> (bits - fill_) : 0;
   }
-  /// A number from 1 on in 2 log2 + 1 bits: small ones are short. Source: Elias 1975, the gamma code.
+  /// A number from 1 on in 2 log2 + 1 bits: small ones are short. Source: Elias 1975, the gamma
+  /// code.
   void put_short(std::uint32_t value) {
     const int low = std::bit_width(value) - 1;
     put(std::uint64_t{1} << low, low + 1);
     put(value ^ std::uint32_t{1} << low, low);
   }
-  /// All words, and no more memory than they take; one word more than was written, so that a reader may look ahead.
+  /// All words, and no more memory than they take; one word more than was written, so that a reader
+  /// may look ahead.
   std::vector<std::uint64_t> take() {
     if (fill_) words_.push_back(word_);
     words_.push_back(0);

@@ -7,7 +7,8 @@
 
 namespace plumb {
 
-/// Without this the many small pieces that a map frees would stay with the process while the file that they become takes the same again.
+/// Without this the many small pieces that a map frees would stay with the process while the file
+/// that they become takes the same again.
 inline void give_back() {
 #if defined(__GLIBC__)
   malloc_trim(0);

@@ -53,7 +53,8 @@ std::vector<Eigen::Vector3f> taken(VoxelMap& map) {
 
 using Cell = std::array<long, 3>;
 Cell cell_of(const Eigen::Vector3d& p, double leaf) {
-  return {std::lround(std::floor(p.x() / leaf)), std::lround(std::floor(p.y() / leaf)), std::lround(std::floor(p.z() / leaf))};
+  return {std::lround(std::floor(p.x() / leaf)), std::lround(std::floor(p.y() / leaf)),
+          std::lround(std::floor(p.z() / leaf))};
 }
 
 TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
@@ -62,11 +63,13 @@ TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto cloud = random_cloud(seed, 4000, 30);
     // To and fro, so that tiles are closed and opened again.
-    const Pose pose(exp_rotation({0.1, 0.2, 0.3 * static_cast<double>(seed)}), {seed % 2 ? 15.0 : -15.0, -3, 1});
+    const Pose pose(exp_rotation({0.1, 0.2, 0.3 * static_cast<double>(seed)}),
+                    {seed % 2 ? 15.0 : -15.0, -3, 1});
     add_all(map, cloud, pose);
     for (std::size_t k = 0; k < cloud.size(); ++k) {
       const Eigen::Vector3d p = pose * cloud.point(k).cast<double>().eval();
-      auto& [sum, n] = expected.try_emplace(cell_of(p, 0.5), Eigen::Vector3d::Zero(), 0).first->second;
+      auto& [sum, n] =
+          expected.try_emplace(cell_of(p, 0.5), Eigen::Vector3d::Zero(), 0).first->second;
       sum += p, ++n;
     }
   }
@@ -88,7 +91,10 @@ TEST(VoxelMap, KeepsMillimetresAtUtmCoordinates) {
   add_all(map, one, Pose(Eigen::Quaterniond::Identity(), utm));
   const auto points = taken(map);
   ASSERT_EQ(points.size(), 1u);
-  EXPECT_LT((points[0].cast<double>() - (utm + Eigen::Vector3d(1, 2, 3) - Eigen::Vector3d(412000, 5654000, 0))).norm(), 1e-4);
+  EXPECT_LT((points[0].cast<double>() -
+             (utm + Eigen::Vector3d(1, 2, 3) - Eigen::Vector3d(412000, 5654000, 0)))
+                .norm(),
+            1e-4);
 }
 
 TEST(VoxelMap, TakesMorePointsInACellThanItCanCount) {
@@ -96,7 +102,8 @@ TEST(VoxelMap, TakesMorePointsInACellThanItCanCount) {
   Cloud cloud;
   for (int k = 0; k < 70000; ++k) cloud.add({0.25f, 0.5f, 0.75f});
   add_all(map, cloud, Pose());
-  add_all(map, random_cloud(1, 100, 3), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-200, 0, 0)));  // closes the first
+  add_all(map, random_cloud(1, 100, 3),
+          Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-200, 0, 0)));  // closes the first
   add_all(map, cloud, Pose());
   EXPECT_LT((taken(map).back() - Eigen::Vector3f(0.25f, 0.5f, 0.75f)).norm(), 1e-4f);
 }
@@ -115,7 +122,9 @@ TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceWheneverTilesAreClosedAndWherev
     std::vector<VoxelMap::FrameCells> frames;
     for (std::uint64_t k = 0; k < 24; ++k) {  // there and back again
       const double way = static_cast<double>(k < 12 ? k : 24 - k);
-      frames.push_back(map.cells_of(random_cloud(k, 2000, 8), Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(3 * way, 0, 0))));
+      frames.push_back(
+          map.cells_of(random_cloud(k, 2000, 8),
+                       Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(3 * way, 0, 0))));
       if (frames.size() < together && k < 23) continue;
       map.add(frames, in_turn, idle);
       frames.clear();
@@ -129,7 +138,8 @@ TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceWheneverTilesAreClosedAndWherev
   for (const std::size_t together : {1, 5, 16})
     for (const std::size_t idle : {0, 1, 7})
       for (const std::size_t memory : {0, 100000, 1 << 30})
-        EXPECT_TRUE(bytes_of(together, idle, memory) == expected) << together << " " << idle << " " << memory;
+        EXPECT_TRUE(bytes_of(together, idle, memory) == expected)
+            << together << " " << idle << " " << memory;
 }
 
 TEST(VoxelMap, KeepsOpenWhatTheSensorSeesHoweverLongTheWay) {
@@ -137,8 +147,9 @@ TEST(VoxelMap, KeepsOpenWhatTheSensorSeesHoweverLongTheWay) {
     VoxelMap map(0.2, Eigen::Vector3d::Zero());
     std::size_t most = 0;
     for (int k = 0; k < frames; ++k) {
-      const auto cells = map.cells_of(random_cloud(static_cast<std::uint64_t>(k), 1000, 20),
-                                      Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(2.0 * k, 0, 0)));
+      const auto cells =
+          map.cells_of(random_cloud(static_cast<std::uint64_t>(k), 1000, 20),
+                       Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(2.0 * k, 0, 0)));
       map.add({&cells, 1}, in_turn, 4);
       most = std::max(most, map.open());
     }
@@ -162,15 +173,20 @@ struct Frames : Collection {
   AnyValue open(std::size_t k) const override { return items[k]; }
 };
 
-/// The step's document for `frames` random frames that stand 5 m apart from each other, from `start` on.
-std::string document(std::size_t frames, const Eigen::Vector3d& start, const std::string& format, Context& context, std::size_t poses) {
+/// The step's document for `frames` random frames that stand 5 m apart from each other, from
+/// `start` on.
+std::string document(std::size_t frames, const Eigen::Vector3d& start, const std::string& format,
+                     Context& context, std::size_t poses) {
   auto each = std::make_shared<Frames>();
   Trajectory trajectory;
   for (std::size_t k = 0; k < frames; ++k)
-    each->items.push_back(any_value(Frame{static_cast<std::uint32_t>(k), random_cloud(k, 1000, 10)}));
+    each->items.push_back(
+        any_value(Frame{static_cast<std::uint32_t>(k), random_cloud(k, 1000, 10)}));
   for (std::size_t k = 0; k < poses; ++k) {
     trajectory.stamps.push_back(static_cast<double>(k));
-    trajectory.T_world_frame.push_back({Eigen::Quaterniond::Identity(), Eigen::Vector3d(start + Eigen::Vector3d(5.0 * static_cast<double>(k), 0, 0))});
+    trajectory.T_world_frame.push_back(
+        {Eigen::Quaterniond::Identity(),
+         Eigen::Vector3d(start + Eigen::Vector3d(5.0 * static_cast<double>(k), 0, 0))});
   }
   PortInput inputs[3];
   inputs[0].wired = inputs[1].wired = true;
@@ -178,12 +194,14 @@ std::string document(std::size_t frames, const Eigen::Vector3d& start, const std
   inputs[1].one = any_value(trajectory);
   PortOutput output;
   const Step& step = *plumb_module()->steps[0];
-  step.run(step.parameters({{"leaf", 0.5}, {"format", format}}).get(), inputs, {&output, 1}, context);
+  step.run(step.parameters({{"leaf", 0.5}, {"format", format}}).get(), inputs, {&output, 1},
+           context);
   return output.one.as<Document>()->bytes.text();
 }
 
 Cloud read_back(const std::string& bytes, const std::string& extension) {
-  const auto file = std::filesystem::temp_directory_path() / ("plumb_map_" + std::to_string(::getpid()) + extension);
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("plumb_map_" + std::to_string(::getpid()) + extension);
   std::ofstream(file, std::ios::binary) << bytes;
   const auto cloud = read_cloud(file).cloud;
   std::filesystem::remove(file);

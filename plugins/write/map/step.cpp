@@ -29,20 +29,25 @@ struct WriteMap : WholeStep {
   };
 
   static void describe(Declaration<WriteMap>& is) {
-    is.name("write.map").version(2).summary("Writes the map: all frames by their poses, one point a cell.");
+    is.name("write.map")
+        .version(2)
+        .summary("Writes the map: all frames by their poses, one point a cell.");
     is.input("frames", &In::frames, "the frames, opened one after another");
     is.input("trajectory", &In::trajectory, "their poses");
     is.scale(&In::scale);
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
-    is.param("leaf", &Params::leaf).unit("m").range(0.005, 100)
+    is.param("leaf", &Params::leaf)
+        .unit("m")
+        .range(0.005, 100)
         .doc("edge length of a cell, of which the mean of its points is written");
     is.choice("format", &Params::format,
               {{"ply", MapFormat::ply, "binary PLY"}, {"pcd", MapFormat::pcd, "binary PCD"}})
         .doc("file format");
   }
 
-  /// Frames that are decoded in parallel before they are added: bounds the memory, and is enough for 16 threads.
+  /// Frames that are decoded in parallel before they are added: bounds the memory, and is enough
+  /// for 16 threads.
   static constexpr std::size_t block = 16;
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -72,7 +77,8 @@ struct WriteMap : WholeStep {
     context.count("points in the map", map.size());
     if (map.size() == 0)
       throw Error("no point is left for the map of " + std::to_string(frames) +
-                  " frames: look at the ranges, leaves and filters before it (`counted:` says where points were dropped)");
+                  " frames: look at the ranges, leaves and filters before it (`counted:` says "
+                  "where points were dropped)");
     if (too_far) context.count("points too far from the map's origin dropped", too_far);
     FileBytes bytes = map_header(map.size(), origin, params.format);
     map.write(bytes);

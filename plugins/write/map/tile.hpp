@@ -9,10 +9,12 @@
 
 namespace plumb {
 
-/// One occupied cell: where in its tile it is, how many points it has had, and the sum of their places inside it. 16 bytes.
+/// One occupied cell: where in its tile it is, how many points it has had, and the sum of their
+/// places inside it. 16 bytes.
 ///
-/// A place inside is counted in 65536ths of the cell's edge (1.5 um at 0.1 m), so sums are whole numbers: the mean does not depend on
-/// the order of the points, and nothing is lost far from the origin. After 65535 points a cell takes no more.
+/// A place inside is counted in 65536ths of the cell's edge (1.5 um at 0.1 m), so sums are whole
+/// numbers: the mean does not depend on the order of the points, and nothing is lost far from the
+/// origin. After 65535 points a cell takes no more.
 struct Cell {
   static constexpr std::uint32_t most = 65535;  ///< points in a cell: 65535 * 65535 fits 32 bits
 
@@ -40,7 +42,8 @@ class Tile {
   /// Packs the cells, without loss, into about a third of the memory.
   void close();
   bool closed() const { return !packed_.empty() || file_; }
-  /// Moves the packed cells into a file that outlives this; nothing happens while it is open. Throws Error when the disk does not take them.
+  /// Moves the packed cells into a file that outlives this; nothing happens while it is open.
+  /// Throws Error when the disk does not take them.
   void sink(io::ScratchFile& file);
   /// Memory that the packed cells take [bytes].
   std::size_t packed_bytes() const { return packed_.size() * sizeof(std::uint64_t); }

@@ -16,13 +16,15 @@ TEST(BitStream, GivesBackWhatWasPut) {
   BitWriter writer;
   for (int k = 0; k < 20000; ++k) {
     const int bits = static_cast<int>(random.below(33));
-    const auto value = static_cast<std::uint32_t>(bits ? random.next() >> (64 - bits) : 1 + (random.next() >> (48 + random.below(16))));
+    const auto value = static_cast<std::uint32_t>(
+        bits ? random.next() >> (64 - bits) : 1 + (random.next() >> (48 + random.below(16))));
     numbers.emplace_back(value, bits);
     bits ? writer.put(value, bits) : writer.put_short(value);
   }
   const auto words = writer.take();
   BitReader reader(words);
-  for (const auto& [value, bits] : numbers) ASSERT_EQ(bits ? reader.get(bits) : reader.get_short(), value);
+  for (const auto& [value, bits] : numbers)
+    ASSERT_EQ(bits ? reader.get(bits) : reader.get_short(), value);
 }
 
 Cell random_cell(Random& random) {
@@ -31,11 +33,14 @@ Cell random_cell(Random& random) {
   if (random.below(50) == 0) cell.place = random.below(2) ? 0xffff : 0;
   const std::uint32_t count = 1 + random.below(random.below(20) == 0 ? Cell::most : 10);
   cell.count = static_cast<std::uint16_t>(count);
-  for (auto& sum : cell.sum) sum = random.below(10) == 0 ? count * 65535u : random.below(count * 65535u);
+  for (auto& sum : cell.sum)
+    sum = random.below(10) == 0 ? count * 65535u : random.below(count * 65535u);
   return cell;
 }
 
-bool same(const Cell& a, const Cell& b) { return a.place == b.place && a.count == b.count && a.sum == b.sum; }
+bool same(const Cell& a, const Cell& b) {
+  return a.place == b.place && a.count == b.count && a.sum == b.sum;
+}
 
 TEST(Tile, HoldsWhatAMapOfCellsHoldsHoweverOftenItIsClosed) {
   for (const std::uint32_t every : {1u, 7u, 1000u, 100000u}) {

@@ -14,7 +14,8 @@ namespace {
 constexpr double parts = 65536;         ///< of a cell's edge
 constexpr std::int64_t half = 1 << 20;  ///< cells from the origin to either side
 
-/// A cell is named by its tile, in 16, 16 and 15 bits for x, y, z, and its place there, in 5, 5 and 6 bits.
+/// A cell is named by its tile, in 16, 16 and 15 bits for x, y, z, and its place there, in 5, 5 and
+/// 6 bits.
 std::uint64_t name_of(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
   return x >> 5 << 47 | y >> 5 << 31 | z >> 6 << 16 | (x & 31) << 11 | (y & 31) << 6 | (z & 63);
 }
@@ -62,7 +63,8 @@ class TileNumbers {
     for (std::uint32_t k = 0; k < parts_.size(); ++k) slots_[place_of(parts_[k].tile)] = k + 1;
   }
   std::vector<VoxelMap::FrameCells::Part>& parts_;
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(1024, 0);  ///< number + 1; at most half full
+  std::vector<std::uint32_t> slots_ =
+      std::vector<std::uint32_t>(1024, 0);  ///< number + 1; at most half full
 };
 
 /// In order of tiles, and within a tile in order of appearance.
@@ -80,7 +82,8 @@ VoxelMap::FrameCells by_tile(const std::vector<NamedCell>& found) {
     p.first = p.end = sum - p.end;
   }
   frame.cells.resize(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) frame.cells[frame.parts[part[k]].end++] = found[k].cell;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    frame.cells[frame.parts[part[k]].end++] = found[k].cell;
   return frame;
 }
 
@@ -100,7 +103,8 @@ VoxelMap::FrameCells VoxelMap::cells_of(const Cloud& cloud, const Pose& T_world_
   std::uint64_t too_far = 0;
   std::vector<NamedCell> found;
   found.reserve(cloud.size() / 2);
-  // Points of one cell come close together in a frame, so a small table of its own finds most of them in the cache.
+  // Points of one cell come close together in a frame, so a small table of its own finds most of
+  // them in the cache.
   const std::size_t mask = std::bit_ceil(2 * cloud.size() + 2) - 1;
   std::vector<std::uint32_t> table(mask + 1, 0);  // place in `found` + 1
   const auto whole = static_cast<double>(half);
@@ -148,7 +152,8 @@ void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel,
   };
   std::vector<Piece> pieces;
   for (std::uint32_t f = 0; f < frames.size(); ++f)
-    for (std::uint32_t p = 0; p < frames[f].parts.size(); ++p) pieces.push_back({frames[f].parts[p].tile, f, p});
+    for (std::uint32_t p = 0; p < frames[f].parts.size(); ++p)
+      pieces.push_back({frames[f].parts[p].tile, f, p});
   std::ranges::sort(pieces);
 
   struct Work {
@@ -178,17 +183,22 @@ void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel,
   });
 
   frames_ += frames.size();
-  const auto still = std::partition(open_.begin(), open_.end(), [&](const Entry* e) { return e->last + idle > frames_; });
+  const auto still = std::partition(open_.begin(), open_.end(),
+                                    [&](const Entry* e) { return e->last + idle > frames_; });
   const std::span<Entry* const> idle_ones(still, open_.end());
   each(parallel, idle_ones.size(), [&](std::size_t k) { idle_ones[k]->tile.close(); });
   sink(idle_ones, parallel);
   open_.erase(still, open_.end());
 }
 
-/// Once the closed tiles take more memory than they may, all of them go to disk, and from then on each that is closed.
+/// Once the closed tiles take more memory than they may, all of them go to disk, and from then on
+/// each that is closed.
 void VoxelMap::sink(std::span<Entry* const> closed, const Parallel& parallel) {
   if (!scratch_) {
-    for (const Entry* entry : closed) packed_ += entry->tile.packed_bytes();  // one that was opened meanwhile counts twice: about is enough
+    for (const Entry* entry : closed)
+      packed_ +=
+          entry->tile
+              .packed_bytes();  // one that was opened meanwhile counts twice: about is enough
     if (packed_ <= memory_) return;
     try {
       scratch_ = std::make_unique<io::ScratchFile>();
@@ -217,7 +227,8 @@ void VoxelMap::write(FileBytes& bytes) {
   std::vector<std::uint64_t> order;
   for (const auto& [key, entry] : tiles_) order.push_back(key);
   std::ranges::sort(order);
-  constexpr std::size_t stretch = 8 << 20;  // bytes after which the memory of the tiles written is given back
+  constexpr std::size_t stretch =
+      8 << 20;  // bytes after which the memory of the tiles written is given back
   give_back();
   std::size_t next = bytes.size() + stretch;
   for (const auto key : order) {

@@ -16,14 +16,18 @@
 
 namespace plumb {
 
-/// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should one come: what is open is what the
-/// sensor sees at present, however long the way. Closed tiles wait in a temporary file once they are many. What is written depends on the points in each cell and their frames' order alone.
+/// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should
+/// one come: what is open is what the sensor sees at present, however long the way. Closed tiles
+/// wait in a temporary file once they are many. What is written depends on the points in each cell
+/// and their frames' order alone.
 class VoxelMap {
  public:
   using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-  /// Cells of edge length `leaf` [m], counted from `origin` [m, world]. Closed tiles take `memory` [bytes] before they go to disk.
-  VoxelMap(double leaf, const Eigen::Vector3d& origin, std::size_t memory = std::size_t{32} << 20) : leaf_(leaf), origin_(origin), memory_(memory) {}
+  /// Cells of edge length `leaf` [m], counted from `origin` [m, world]. Closed tiles take `memory`
+  /// [bytes] before they go to disk.
+  VoxelMap(double leaf, const Eigen::Vector3d& origin, std::size_t memory = std::size_t{32} << 20)
+      : leaf_(leaf), origin_(origin), memory_(memory) {}
 
   /// The cells of one frame, tile by tile.
   struct FrameCells {
@@ -38,12 +42,14 @@ class VoxelMap {
   /// The cells of a cloud under its pose. Safe from several threads.
   FrameCells cells_of(const Cloud& cloud, const Pose& T_world_cloud) const;
 
-  /// Adds frames in their order, tiles in parallel; then closes the tiles that none of the last `idle` frames has met.
+  /// Adds frames in their order, tiles in parallel; then closes the tiles that none of the last
+  /// `idle` frames has met.
   void add(std::span<const FrameCells> frames, const Parallel& parallel, std::size_t idle = 32);
 
-  std::size_t size() const;      ///< cells
-  std::size_t open() const;      ///< cells of tiles that are open
-  /// Appends the mean of each cell, relative to the origin [m], as three float32 a point, by tile and place. Frees the cells as it goes.
+  std::size_t size() const;  ///< cells
+  std::size_t open() const;  ///< cells of tiles that are open
+  /// Appends the mean of each cell, relative to the origin [m], as three float32 a point, by tile
+  /// and place. Frees the cells as it goes.
   void write(FileBytes& bytes);
 
  private:
@@ -54,8 +60,8 @@ class VoxelMap {
   void sink(std::span<Entry* const> closed, const Parallel& parallel);
   double leaf_;
   Eigen::Vector3d origin_;
-  std::size_t memory_, packed_ = 0;            ///< [bytes]: what closed tiles may take, and take
-  std::unique_ptr<io::ScratchFile> scratch_;   ///< of the closed tiles, once they were too much
+  std::size_t memory_, packed_ = 0;           ///< [bytes]: what closed tiles may take, and take
+  std::unique_ptr<io::ScratchFile> scratch_;  ///< of the closed tiles, once they were too much
   std::unordered_map<std::uint64_t, Entry> tiles_;
   std::vector<Entry*> open_;  ///< tiles that are not closed
   std::uint64_t frames_ = 0;

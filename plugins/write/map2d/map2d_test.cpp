@@ -39,8 +39,7 @@ TEST(WriteMap2d, WritesPgmWithTheTopRowFirst) {
   const std::string bytes = document.bytes.text();
   ASSERT_TRUE(bytes.starts_with(header));
   std::vector<int> pixels;
-  for (const char c : bytes.substr(header.size()))
-    pixels.push_back(static_cast<std::uint8_t>(c));
+  for (const char c : bytes.substr(header.size())) pixels.push_back(static_cast<std::uint8_t>(c));
   EXPECT_THAT(pixels, ElementsAre(0, 254, 205, 205, 205, 0));
 }
 

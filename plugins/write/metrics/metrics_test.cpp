@@ -10,7 +10,9 @@ namespace {
 
 Metrics sample() {
   Metrics metrics;
-  metrics.add("residual", 0.1, "m").add("worst", 1.0 / 3, "m").add("none", std::numeric_limits<double>::quiet_NaN(), "m");
+  metrics.add("residual", 0.1, "m")
+      .add("worst", 1.0 / 3, "m")
+      .add("none", std::numeric_limits<double>::quiet_NaN(), "m");
   metrics.edges = {{0, 1, EdgeKind::sequential, 900, 120, 0.05, 0.99, "kept"},
                    {0, 7, EdgeKind::loop, 800, 30, 5.5, 0.01, "rejected"},
                    {3, 9, EdgeKind::neighbour, 700, 0, 0, 0, "no matches"}};
@@ -38,7 +40,10 @@ TEST(MetricsJson, HoldsStagesNumbersNotesAndEdges) {
 TEST(MetricsJson, KeepsItsKeysInOneOrderAndAnEdgeALine) {
   const auto metrics = sample();
   const auto text = metrics_json({{"", &metrics}});
-  EXPECT_THAT(text, testing::HasSubstr(R"({"i":0,"j":7,"kind":"loop","found":800,"kept":30,"residual":5.5,"weight":0.01,"fate":"rejected"})"));
+  EXPECT_THAT(
+      text,
+      testing::HasSubstr(
+          R"({"i":0,"j":7,"kind":"loop","found":800,"kept":30,"residual":5.5,"weight":0.01,"fate":"rejected"})"));
   EXPECT_LT(text.find("\"residual\""), text.find("\"worst\""));
   EXPECT_EQ(text, metrics_json({{"", &metrics}}));
 }

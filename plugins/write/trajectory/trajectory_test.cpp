@@ -14,7 +14,8 @@ Document written(const ParameterValues& values, std::vector<double> stamps = {1.
   const Step& step = *plumb_module()->steps[0];
   Trajectory trajectory;
   trajectory.stamps = std::move(stamps);
-  trajectory.T_world_frame = {Pose(), Pose(Eigen::Quaterniond(0, 0, 0, 1), Eigen::Vector3d(1, -2, 3))};
+  trajectory.T_world_frame = {Pose(),
+                              Pose(Eigen::Quaterniond(0, 0, 0, 1), Eigen::Vector3d(1, -2, 3))};
   PortInput input;
   input.wired = true;
   input.one = any_value(trajectory);

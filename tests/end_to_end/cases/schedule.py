@@ -143,7 +143,7 @@ def test_no_c_plus_plus_outside_the_plugins_names_a_stage_or_parameter_of_the_ca
 def test_no_build_file_outside_the_plugins_names_a_step(folder):
     words = [w for name in step_names() for w in (name, name.replace(".", "_"), name.replace(".", "/"))]
     for file in (SOURCE / "CMakeLists.txt", SOURCE / "framework/CMakeLists.txt", SOURCE / "tools/CMakeLists.txt",
-                 SOURCE / "framework/plugin/PlumbStep.cmake"):
+                 SOURCE / "framework/PlumbStep.cmake"):
         text = re.sub(r"#[^\n]*", "", file.read_text())
         assert not [w for w in words if re.search(rf"\b{re.escape(w)}\b", text)], file
 

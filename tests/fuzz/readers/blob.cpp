@@ -1,9 +1,11 @@
-#include "../fuzz.hpp"
 #include "plumb/store/blob.hpp"
+
+#include "../fuzz.hpp"
 
 using namespace plumb;
 
-/// What stands in a blob between its key and its checksum, both of which are right: the step, then values of any type.
+/// What stands in a blob between its key and its checksum, both of which are right: the step, then
+/// values of any type.
 PLUMB_FUZZ_READER(blob) {
   const Hash128 key{1, 2};
   OutArchive<TextSink> file;
@@ -22,5 +24,6 @@ PLUMB_FUZZ_READER(blob) {
     }
   const std::string written = blob_of(key, *result, "describe.fpfh");
   const auto again = read_blob(key, written);
-  fuzz::require(again && blob_of(key, *again, "describe.fpfh") == written, "a result that was read is the same after it was written");
+  fuzz::require(again && blob_of(key, *again, "describe.fpfh") == written,
+                "a result that was read is the same after it was written");
 }

@@ -20,6 +20,7 @@ PLUMB_FUZZ_READER(carmen) {
     const Cloud cloud = cloud_of(scan, fan_of(scan, std::nullopt), {0.05, most}, &left_out);
     fuzz::require(is_finite(cloud), "points that were read are finite");
     const std::size_t out = left_out.nothing_seen + left_out.too_near + left_out.no_number;
-    fuzz::require(cloud.size() + out == scan.ranges.size(), "every reading becomes a point or is counted as left out");
+    fuzz::require(cloud.size() + out == scan.ranges.size(),
+                  "every reading becomes a point or is counted as left out");
   }
 }

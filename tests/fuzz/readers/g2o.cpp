@@ -10,5 +10,6 @@ PLUMB_FUZZ_READER(g2o) {
   fuzz::require(is_finite(graph.poses.T_world_segment), "vertices that were read are finite");
   fuzz::require(*fault_in(graph.relations) == '\0', "edges that were read are finite");
   for (const RelativePose& edge : graph.relations.relative)
-    fuzz::require(edge.i < graph.poses.size() && edge.j < graph.poses.size(), "edges that were read join vertices");
+    fuzz::require(edge.i < graph.poses.size() && edge.j < graph.poses.size(),
+                  "edges that were read join vertices");
 }

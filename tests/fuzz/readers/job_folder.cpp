@@ -1,4 +1,4 @@
-#include "plumb/engine/slurm/job_folder.hpp"
+#include "plumb/engine/remote/slurm/job_folder.hpp"
 
 #include "../fuzz.hpp"
 

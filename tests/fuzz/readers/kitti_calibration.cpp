@@ -5,5 +5,6 @@
 using namespace plumb;
 
 PLUMB_FUZZ_READER(kitti_calibration) {
-  fuzz::require(is_finite(read_calibration(fuzz::file_of(bytes))), "a calibration that was read is finite");
+  fuzz::require(is_finite(read_calibration(fuzz::file_of(bytes))),
+                "a calibration that was read is finite");
 }

@@ -2,7 +2,7 @@
 
 #include "../fuzz.hpp"
 #include "plumb/pipeline/reader.hpp"
-#include "plumb/pipeline/test_steps.hpp"
+#include "plumb/pipeline/testing/test_steps.hpp"
 
 using namespace plumb;
 

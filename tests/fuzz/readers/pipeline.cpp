@@ -1,8 +1,8 @@
 #include "../fuzz.hpp"
-#include "plumb/pipeline/graph.hpp"
+#include "plumb/pipeline/print/graph.hpp"
+#include "plumb/pipeline/print/table.hpp"
 #include "plumb/pipeline/reader.hpp"
-#include "plumb/pipeline/table.hpp"
-#include "plumb/pipeline/test_steps.hpp"
+#include "plumb/pipeline/testing/test_steps.hpp"
 
 using namespace plumb;
 
@@ -13,7 +13,9 @@ PLUMB_FUZZ_READER(pipeline) {
   mermaid_graph(plan);
   dot_graph(plan);
   // Its comments say where each value came from: from the second time on, from itself.
-  const auto again = [](const std::string& text) { return read_pipeline(fuzz::file_of(text, "b.yaml"), {}, test::registry()).resolved; };
+  const auto again = [](const std::string& text) {
+    return read_pipeline(fuzz::file_of(text, "b.yaml"), {}, test::registry()).resolved;
+  };
   const std::string resolved = again(plan.resolved);
   fuzz::require(again(resolved) == resolved, "a resolved pipeline resolves to itself");
 }

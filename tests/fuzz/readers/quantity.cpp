@@ -2,7 +2,7 @@
 
 #include "../fuzz.hpp"
 #include "plumb/data/amount.hpp"
-#include "plumb/pipeline/value.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
 #include "simulate/option.hpp"
 
 using namespace plumb;
@@ -34,8 +34,11 @@ PLUMB_FUZZ_READER(quantity) {
   const simulate::OptionRange range{"length", "", Quantity::length, 0, 1e6};
   any |= taken([&] {
     const double value = simulate::parse_quantity(range, text, true, "here");
-    fuzz::require(value >= range.low && value <= range.high, "a quantity that was read is in range");
-    fuzz::require(simulate::parse_quantity(range, simulate::exactly(value, range), false, "here") == value, "a quantity reads back as written");
+    fuzz::require(value >= range.low && value <= range.high,
+                  "a quantity that was read is in range");
+    fuzz::require(
+        simulate::parse_quantity(range, simulate::exactly(value, range), false, "here") == value,
+        "a quantity reads back as written");
   });
   any |= taken([&] { simulate::parse_whole(range, text, "here"); });
   if (!any) throw Error("no quantity");

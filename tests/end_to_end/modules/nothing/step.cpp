@@ -1,4 +1,5 @@
-/// As many items as asked for, and a step that does nothing with each: what an item costs beside its work.
+/// As many items as asked for, and a step that does nothing with each: what an item costs beside
+/// its work.
 #include "plumb/plugin/module.hpp"
 
 namespace plumb {
@@ -6,8 +7,12 @@ namespace {
 
 struct Items : WholeStep {
   struct In {};
-  struct Out { std::vector<Range> ranges; };
-  struct Params { int items = 2000; };
+  struct Out {
+    std::vector<Range> ranges;
+  };
+  struct Params {
+    int items = 2000;
+  };
   static void describe(Declaration<Items>& is) {
     is.name("test.items").version(1).summary("Gives ranges.");
     is.param("items", &Params::items).range(1, 1e6).doc("how many");
@@ -27,9 +32,15 @@ struct Items : WholeStep {
 };
 
 struct Nothing : SegmentStep {
-  struct In { One<Range> range; };
-  struct Out { Descriptor descriptor; };
-  struct Params { int round = 0; };
+  struct In {
+    One<Range> range;
+  };
+  struct Out {
+    Descriptor descriptor;
+  };
+  struct Params {
+    int round = 0;
+  };
   static void describe(Declaration<Nothing>& is) {
     is.name("test.nothing").version(1).summary("Does nothing.");
     is.param("round", &Params::round).doc("another number is another result");
@@ -39,14 +50,21 @@ struct Nothing : SegmentStep {
 };
 
 struct Count : WholeStep {
-  struct In { Each<Descriptor> descriptors; };
-  struct Out { Document document; };
+  struct In {
+    Each<Descriptor> descriptors;
+  };
+  struct Out {
+    Document document;
+  };
   struct Params {};
   static void describe(Declaration<Count>& is) {
     is.name("test.count").version(1).summary("Counts.");
-    is.input("descriptors", &In::descriptors, "to count").output("document", &Out::document, "their number");
+    is.input("descriptors", &In::descriptors, "to count")
+        .output("document", &Out::document, "their number");
   }
-  Out run(const In& in, const Params&, Context&) const { return {{"count.txt", std::to_string(in.descriptors.size()) + "\n"}}; }
+  Out run(const In& in, const Params&, Context&) const {
+    return {{"count.txt", std::to_string(in.descriptors.size()) + "\n"}};
+  }
 };
 
 }  // namespace

@@ -1,0 +1,57 @@
+# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED])
+#
+# Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
+# (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
+# A module is loaded only from where nobody else may write, whatever the umask of who builds it: plumb_close_folder(FOLDER) makes such a folder.
+function(plumb_close_folder folder)
+  file(MAKE_DIRECTORY ${folder})
+  file(CHMOD ${folder} DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+endfunction()
+
+function(plumb_add_step step)
+  cmake_parse_arguments(arg "NOT_INSTALLED" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  if(NOT arg_SOURCES)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
+  endif()
+  if(NOT arg_TESTS)
+    file(GLOB arg_TESTS CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  endif()
+  string(REPLACE "." "_" id ${step})
+
+  # The objects are compiled once; the module and the test both link them.
+  add_library(${id}_objects OBJECT ${arg_SOURCES})
+  target_link_libraries(${id}_objects PUBLIC plumb ${arg_LIBRARIES})
+  target_compile_options(${id}_objects PRIVATE ${PLUMB_WARNINGS})
+  plumb_precompiled_step(${id}_objects)
+
+  add_library(step_${id} MODULE $<TARGET_OBJECTS:${id}_objects>)
+  target_link_libraries(step_${id} PRIVATE plumb ${arg_LIBRARIES} -Wl,--no-undefined)
+  set_target_properties(step_${id} PROPERTIES PREFIX "" OUTPUT_NAME ${step}
+                        LIBRARY_OUTPUT_DIRECTORY ${PLUMB_MODULE_DIR})
+  if(NOT TARGET plumb_modules)
+    add_custom_target(plumb_modules)  # all of them, for who builds no tests
+  endif()
+  add_dependencies(plumb_modules step_${id})
+  if(TARGET plumb_manifest)
+    add_custom_command(TARGET step_${id} POST_BUILD
+                       COMMAND chmod go-w $<TARGET_FILE:step_${id}>
+                       COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
+                       COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
+                       COMMENT "Manifest of ${step}")
+    add_dependencies(step_${id} plumb_manifest)
+  endif()
+  if(NOT arg_NOT_INSTALLED)
+    install(TARGETS step_${id} LIBRARY DESTINATION lib/plumb)
+    install(FILES ${PLUMB_MODULE_DIR}/${step}.json DESTINATION lib/plumb OPTIONAL)
+  endif()
+
+  if(PLUMB_TESTS AND arg_TESTS)
+    add_executable(test_${id} ${arg_TESTS} $<TARGET_OBJECTS:${id}_objects>)
+    plumb_precompiled_test(test_${id})
+    target_link_libraries(test_${id} PRIVATE plumb ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
+                                             GTest::gtest_main)
+    target_compile_definitions(test_${id} PRIVATE PLUMB_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+    gtest_discover_tests(test_${id} TEST_PREFIX "${step}." DISCOVERY_MODE PRE_TEST)
+  endif()
+endfunction()

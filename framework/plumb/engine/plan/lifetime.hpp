@@ -1,0 +1,25 @@
+#pragma once
+/// What a plan says, before it runs, on how long each step's results must live.
+
+#include <cstdint>
+#include <vector>
+
+#include "plumb/pipeline/bind/plan.hpp"
+
+namespace plumb {
+
+/// How long the items of a step live.
+enum class Keeping : std::uint8_t {
+  passing,  ///< made anew whenever asked for: frames, and clouds that only one following step takes
+  kept,     ///< made once, kept as long as someone may ask
+  remembered,  ///< kept, and looked up in memory too when there is no store: the step may come
+               ///< again with the same inputs
+};
+
+/// For each step: the place in Plan::order after which nobody asks for its results any more.
+std::vector<std::size_t> last_uses(const Plan& plan);
+
+/// For each step: whether its items pass through, are kept, or are remembered too.
+std::vector<Keeping> keeping_of(const Plan& plan);
+
+}  // namespace plumb

@@ -1,0 +1,61 @@
+#pragma once
+/// Runs a checked pipeline.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/engine/cache/explain.hpp"
+#include "plumb/engine/observe/bookkeeping.hpp"
+#include "plumb/engine/run/executor.hpp"
+#include "plumb/pipeline/bind/plan.hpp"
+#include "plumb/plugin/registry.hpp"
+#include "plumb/store/store.hpp"
+
+namespace plumb {
+
+struct RunOptions {
+  unsigned threads = 0;    ///< 0: as many as the machine has
+  Store* store = nullptr;  ///< where results of earlier runs are found and those of this one kept
+  bool fresh = false;      ///< nothing is taken from the store, but all is kept
+  std::size_t memory = 0;  ///< bound of resident memory [bytes], which needs a store; 0: none
+  Executor* executor =
+      nullptr;  ///< makes calls in other processes, which needs a store; none: all in this one
+};
+
+/// How a repeat ended.
+struct LoopEnd {
+  std::string path;
+  int passes = 0;
+  std::string why;
+};
+
+/// A file that a step made.
+struct MadeDocument {
+  std::string path;  ///< of the step
+  std::shared_ptr<const Document> document;
+};
+
+struct MadeMetrics {
+  std::string path;
+  std::shared_ptr<const Metrics> metrics;
+};
+
+struct RunResult {
+  std::vector<MadeDocument> documents;
+  std::vector<MadeMetrics> metrics;  ///< every Metrics output; of a repeat its last pass
+  std::vector<LoopEnd> loops;
+  std::vector<std::string> warnings;
+  std::vector<StepCount> counts;
+  std::vector<StepTime> times;
+  std::vector<Explained>
+      explained;       ///< with a store: each step, in each pass, in the order in which they ran
+  double seconds = 0;  ///< wall clock
+  std::size_t peak_bytes = 0;  ///< of resident memory without mapped files, of all its processes
+};
+
+/// Runs all steps. Throws Error that names step and item; nothing is written to disk here.
+RunResult run_plan(const Plan& plan, const Registry& registry, const RunOptions& options,
+                   Observer& observer);
+
+}  // namespace plumb

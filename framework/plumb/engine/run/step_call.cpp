@@ -1,0 +1,250 @@
+/// What one call of a step sees: the inputs that it gathers, the key that they make, the call
+/// itself.
+#include "plumb/data/error.hpp"
+#include "plumb/engine/plan/step_key.hpp"
+#include "plumb/engine/run/item_context.hpp"
+#include "plumb/engine/run/running_call.hpp"
+#include "plumb/engine/run/step_run.hpp"
+
+namespace plumb {
+namespace {
+
+/// Values [first, end) of an output, opened when asked for.
+class RunCollection final : public Collection {
+ public:
+  RunCollection(Source source, std::size_t first, std::size_t end)
+      : source_(std::move(source)), first_(first), end_(end) {}
+  std::size_t size() const override { return end_ - first_; }
+  AnyValue open(std::size_t k) const override {
+    return source_.run->value(source_.output, first_ + k);
+  }
+  const Edges* edges() const override { return source_.run->edges().get(); }
+
+ private:
+  Source source_;
+  std::size_t first_, end_;
+};
+
+}  // namespace
+
+/// Those of `frames` that segment k is made of.
+std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k, const Source& frames) const {
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>()) {
+      const auto range = inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>();
+      const std::size_t there = frames.run->count(frames.output);
+      if (range->end > there)
+        throw NestedError(title(k) + ": has frames up to " + std::to_string(range->end) +
+                          " and there are " + std::to_string(there) +
+                          "; wire ranges that these frames were cut into, and if a store was "
+                          "changed by hand, run with --fresh");
+      return {range->first, range->end};
+    }
+  throw Error("has frames but no ranges");
+}
+
+/// Mirrors gather: what a call sees is what its key is made of.
+void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
+  const InputDescription& input = plan_.description->inputs[port];
+  const auto add = [&](const Hash128& h) { hasher.bytes(&h, sizeof h); };
+  const auto add_number = [&](std::uint64_t n) { hasher.bytes(&n, sizeof n); };
+  add_number(inputs_[port].size());
+  if (inputs_[port].empty()) return;
+  const Source& source = inputs_[port].front();
+  switch (input.access) {
+    case Access::item:
+      if (plan_.description->kind == StepKind::fold &&
+          input.type->grain == Grain::frame) {  // sees them all, in order
+        add_number(source.run->count(source.output));
+        for (std::size_t n = 0; n < source.run->count(source.output); ++n)
+          add(source.run->key(source.output, n));
+      } else {
+        add(source.run->key(source.output, input.type->grain == Grain::whole ? 0 : k));
+      }
+      break;
+    case Access::ends:
+      add(source.run->key(source.output, edges_->list[k].i));
+      add(source.run->key(source.output, edges_->list[k].j));
+      break;
+    case Access::each: {
+      const auto [first, end] = itemwise()
+                                    ? frames_of(k, source)
+                                    : std::pair(std::size_t{0}, source.run->count(source.output));
+      add_number(end - first);
+      for (std::size_t n = first; n < end; ++n) add(source.run->key(source.output, n));
+      if (source.run->edges()) add(content_hash(*source.run->edges()));
+      break;
+    }
+    case Access::several:
+      for (const Source& one : inputs_[port]) {
+        hasher.text(one.label);
+        add(one.run->key(one.output));
+      }
+      break;
+    case Access::relative: {
+      const auto poses = source.run->value(source.output).as<Poses>();
+      add(content_hash(poses->relative(edges_->list[k].i, edges_->list[k].j)));
+      break;
+    }
+    case Access::over_edges:
+      break;
+    case Access::this_edge:
+      add(content_hash(edges_->list[k]));
+      break;
+  }
+}
+
+Hash128 StepRun::call_key(std::size_t k) {
+  Hasher hasher;
+  hasher.bytes(&base_key_, sizeof base_key_);
+  hasher.bytes(&files_key_, sizeof files_key_);
+  for (std::size_t p = 0; p < inputs_.size(); ++p) hash_input(hasher, p, k);
+  return hasher.hash();
+}
+
+std::vector<PortInput> StepRun::gather(std::size_t k) {
+  std::vector<PortInput> ports(inputs_.size());
+  for (std::size_t p = 0; p < ports.size(); ++p) {
+    PortInput& port = ports[p];
+    if (inputs_[p].empty()) continue;
+    port.wired = true;
+    const InputDescription& input = plan_.description->inputs[p];
+    const Source& source = inputs_[p].front();
+    switch (input.access) {
+      case Access::item:
+        port.one = source.run->value(source.output, input.type->grain == Grain::whole ? 0 : k);
+        break;
+      case Access::ends:
+        port.one = source.run->value(source.output, edges_->list[k].i);
+        port.other = source.run->value(source.output, edges_->list[k].j);
+        break;
+      case Access::each: {
+        const auto [first, end] = itemwise()
+                                      ? frames_of(k, source)
+                                      : std::pair(std::size_t{0}, source.run->count(source.output));
+        port.each = std::make_shared<RunCollection>(source, first, end);
+        break;
+      }
+      case Access::several:
+        for (const Source& one : inputs_[p])
+          port.several.emplace_back(one.label, one.run->value(one.output));
+        break;
+      case Access::relative:
+        port.T_i_j = source.run->value(source.output)
+                         .as<Poses>()
+                         ->relative(edges_->list[k].i, edges_->list[k].j);
+        break;
+      case Access::over_edges:
+        break;
+      case Access::this_edge:
+        port.edge = edges_->list[k];
+        break;
+    }
+  }
+  return ports;
+}
+
+void StepRun::run_fold(std::vector<PortOutput>& outputs, Context& context) {
+  const auto state = step_.begin({});
+  std::size_t frames = 0;
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type->grain == Grain::frame)
+      frames = inputs_[p].front().run->count(inputs_[p].front().output);
+  for (std::size_t n = 0; n < frames; ++n)
+    step_.fold(state.get(), params_.get(), gather(n), context);
+  step_.finish(state.get(), params_.get(), outputs, context);
+}
+
+/// From what the call sees, by content: a copied file or another folder gives the same numbers.
+/// Collections are not looked at.
+std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
+  Hasher hasher;
+  hasher.bytes(&base_key_, sizeof base_key_);
+  const auto add = [&](const AnyValue& value) {
+    if (!value) return;
+    const Hash128 content = value.type->hash(value.value.get());
+    hasher.bytes(&content, sizeof content);
+  };
+  for (const PortInput& port : inputs) {
+    add(port.one);
+    add(port.other);
+    for (const auto& [label, value] : port.several) add(value);
+    const Hash128 rest = joined_key(content_hash(port.T_i_j), content_hash(port.edge));
+    hasher.bytes(&rest, sizeof rest);
+  }
+  return hasher.hash().low;
+}
+
+/// Memory that a call may need [bytes], about: its inputs, and twice as much for what is made of
+/// them. Frames are as big as the biggest seen.
+std::size_t StepRun::expected_bytes(std::size_t k) {
+  std::size_t bytes = 0;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    if (inputs_[p].empty()) continue;
+    const InputDescription& input = plan_.description->inputs[p];
+    const Source& source = inputs_[p].front();
+    if (input.access == Access::item && input.type->grain != Grain::whole)
+      bytes += source.run->size_of(source.output, k);
+    if (input.access == Access::ends)
+      bytes += source.run->size_of(source.output, edges_->list[k].i) +
+               source.run->size_of(source.output, edges_->list[k].j);
+    if (input.access == Access::each && itemwise()) {
+      const auto [first, end] = frames_of(k, source);
+      for (std::size_t n = first; n < end; ++n) bytes += source.run->size_of(source.output, n);
+    }
+  }
+  return keeping_ == Keeping::passing ? bytes : 3 * bytes;
+}
+
+/// What no step may give is refused here, so that the step that made it is named.
+void StepRun::require_sound(const AnyValue& value, std::size_t output) const {
+  if (!value) return;
+  if (const char* fault = value.type->fault(value.value.get()); *fault)
+    throw Error("its output '" + plan_.description->outputs[output].name + "' holds " + fault +
+                "; the step must not give that, whatever its input");
+}
+
+void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const {
+  try {
+    for (std::size_t o = 0; o < outputs.size(); ++o) {
+      require_sound(outputs[o].one, o);
+      for (const AnyValue& value : outputs[o].many) require_sound(value, o);
+    }
+  } catch (const Error& e) {
+    throw NestedError(title(k) + ": " + e.what());
+  }
+}
+
+std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
+  std::vector<PortOutput> outputs(plan_.description->outputs.size());
+  const bool fold = plan_.description->kind == StepKind::fold;
+  const auto inputs =
+      fold
+          ? std::vector<PortInput>()
+          : gather(k);  // outside the try: what an earlier step says of itself needs no second name
+  const bool passing = itemwise() && keeping_ == Keeping::passing,
+             first = passing && first_asked(0, k);
+  // In a worker nothing is booked but what is warned: counts go home with the reply.
+  ItemContext context(
+      state_.books, plan_.path, [&] { return fold ? base_key_.low : seed_of(inputs); },
+      !state_.passed && (!passing || first), said);
+  const RunningCall now(*this, k);
+  try {
+    if (fold)
+      run_fold(outputs, context);
+    else
+      step_.run(params_.get(), inputs, outputs, context);
+  } catch (const NestedError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw NestedError(title(k) + ": " + sentence_of(e));
+  } catch (...) {
+    throw NestedError(
+        title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
+  }
+  check_outputs(outputs, k);
+  if (first && state_.passed) state_.passed(*this, 0, k, *said);
+  return outputs;
+}
+
+}  // namespace plumb

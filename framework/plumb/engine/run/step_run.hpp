@@ -1,0 +1,180 @@
+#pragma once
+/// One step of a plan in one pass, with its inputs joined: what it is asked for, it makes,
+/// remembers or passes through.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plumb/engine/cache/explain.hpp"
+#include "plumb/engine/cache/results.hpp"
+#include "plumb/engine/observe/bookkeeping.hpp"
+#include "plumb/engine/plan/lifetime.hpp"
+#include "plumb/engine/run/admission.hpp"
+#include "plumb/engine/run/executor.hpp"
+#include "plumb/pipeline/bind/plan.hpp"
+#include "plumb/plugin/step.hpp"
+#include "plumb/store/index.hpp"
+
+namespace plumb {
+
+class StepRun;
+
+/// An output of a step in some pass.
+struct Source {
+  std::shared_ptr<StepRun> run;
+  int output = -1;
+  std::string label;  ///< for an input that takes several
+};
+
+/// What all step runs of a run share.
+struct RunState {
+  Bookkeeping& books;
+  Results& results;
+  Admission& admission;
+  Executor* executor = nullptr;  ///< none: calls are made in this process
+  int pass = -1;                 ///< of the innermost repeat around the step
+  /// In a worker: takes what steps count whose frames pass through a call, instead of the books.
+  std::function<void(const StepRun& run, std::size_t output, std::size_t item,
+                     const StoredResult& said)>
+      passed = nullptr;
+};
+
+class StepRun : public std::enable_shared_from_this<StepRun> {
+ public:
+  StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
+          std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
+
+  /// Makes everything that is to be kept: the whole step, or all its items.
+  void start();
+  /// In a worker: takes over what another process made and put into the store, by its keys.
+  void adopt_items(std::vector<Hash128> keys, Source edges);
+  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source edges);
+  /// In a worker: joins the inputs of a step whose calls are asked for one by one.
+  void join();
+  /// In a worker: makes one call, puts its result into the store under the `expected` key unless
+  /// the step has lazy outputs, and writes down what became of it. Throws MachineryError when the
+  /// key is another here or the store does not take the result, Error when the call fails.
+  void make_one(std::size_t k, const Hash128& expected, Reply& reply);
+
+  const PlannedStep& plan() const { return plan_; }
+  const ParameterValues& values() const { return values_; }
+  Keeping keeping() const { return keeping_; }
+  const std::vector<std::vector<Source>>& inputs() const { return inputs_; }
+  bool itemwise() const;                        ///< one call a frame, segment or edge
+  bool lazy() const;                            ///< has outputs that are made when asked for
+  std::size_t items() const { return items_; }  ///< calls, for an item-wise step
+  const std::vector<Hash128>& item_keys() const { return kept_keys_; }
+  const Hash128& whole_key() const { return whole_key_; }
+  const std::vector<std::vector<Hash128>>& whole_keys() const { return whole_keys_; }
+  const Source& edges_source() const { return edges_source_; }
+  /// "step 'coarse.matches' (match.fpfh_mutual), edge 3-4".
+  std::string title(std::size_t k) const;
+  std::string item_name(
+      std::size_t k) const;  ///< "edge 3-4"; empty for a step on whole collections
+  /// Asked after start(), with a store.
+  Facts facts();
+
+  /// How many values `output` has: 1 for a value of the whole pipeline.
+  std::size_t count(int output) const;
+  /// Value k of an output, made or fetched. Throws Error that names step and item.
+  AnyValue value(int output, std::size_t k = 0);
+  /// Changes whenever that value would.
+  Hash128 key(int output, std::size_t k = 0);
+  /// The edges that edge-wise values of this run belong to.
+  std::shared_ptr<const Edges> edges() const { return edges_; }
+  /// What value k of an output takes in memory [bytes], about; 0 when nobody knows yet.
+  std::size_t size_of(int output, std::size_t k);
+  /// Books what was counted in another process of a value that passes through, once however often
+  /// it is made.
+  void book_passed(const PassedCounts& passed);
+  /// Whether another process put the result of call k into the store; what its step said is said
+  /// again then.
+  bool adopt_result(std::size_t k);
+  /// Whether the result of call k is in the store, and removes it from there.
+  bool has_result(std::size_t k) const { return state_.results.store()->contains(key_of_call(k)); }
+  void remove_result(std::size_t k) { state_.results.store()->remove(key_of_call(k)); }
+  /// Says a sentence about this step while it runs, once.
+  void say(const std::string& sentence) { state_.books.warn(plan_.path, sentence); }
+  /// Throws Error unless other processes can get this run's results from the store.
+  void require_in_store() const;
+
+ private:
+  struct Failed {
+    std::size_t item;
+    std::string sentence;
+  };
+  // step_call.cpp: what one call sees
+  std::vector<PortInput> gather(std::size_t k);
+  Hash128 call_key(std::size_t k);
+  void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
+  std::pair<std::size_t, std::size_t> frames_of(std::size_t k, const Source& frames) const;
+  std::size_t expected_bytes(std::size_t k);
+  std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
+  std::vector<PortOutput> call(std::size_t k, StoredResult* said);
+  void run_fold(std::vector<PortOutput>& outputs, Context& context);
+  void require_sound(const AnyValue& value, std::size_t output) const;
+  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
+  // step_items.cpp: the items of an item-wise step
+  void find_items();
+  void require_segments_of_edges() const;
+  [[noreturn]] void refuse_counts(const std::string& one, std::size_t have,
+                                  const std::string& other, std::size_t wanted) const;
+  void start_items();
+  void make_items_here();
+  void make_items_elsewhere();
+  void settle(std::vector<Failed> failed);
+  bool reuse(std::size_t k);
+  void make_item(std::size_t k);
+  SharedResult fetch(std::size_t k);
+  std::vector<AnyValue> pass(std::size_t k);
+  // step_whole.cpp: a step on whole collections
+  void start_whole();
+  void take_whole(std::vector<PortOutput> outputs, StoredResult said);
+  bool find_whole();
+  void make_whole_elsewhere();
+  void name_values();
+  void check_items(std::size_t output);
+  const Source* source_over(std::size_t output) const;
+  SharedResult whole();
+  // both
+  const Hash128& key_of_call(std::size_t k) const {
+    return itemwise() ? kept_keys_[k] : whole_key_;
+  }
+  bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
+  std::string misfit_of(const StoredResult& result) const;
+  std::optional<std::size_t> values_of(std::size_t output) const;
+  SharedResult find(const Hash128& key);
+  void say_again(const StoredResult& result);
+  void book(const Reply& reply);
+  StoredResult result_of(std::vector<PortOutput>& outputs, StoredResult said) const;
+  SharedResult kept(const Hash128& key, StoredResult result, SharedResult& pin);
+
+  const PlannedStep& plan_;
+  const Step& step_;
+  ParameterValues values_;
+  std::shared_ptr<const void> params_;
+  Hash128 base_key_, files_key_;
+  std::vector<std::vector<Source>> inputs_;
+  Keeping keeping_;
+  RunState state_;
+
+  std::size_t items_ = 0;
+  Source edges_source_;  ///< where edges_ come from
+  std::shared_ptr<const Edges> edges_;
+  std::vector<Hash128> kept_keys_;  ///< by item
+  std::vector<SharedResult> pins_;  ///< by item: what the store did not take
+  Hash128 whole_key_;
+  SharedResult whole_pin_;       ///< of a step on whole collections, unless it may leave memory
+  std::vector<LazyItems> lazy_;  ///< by output
+  std::vector<std::vector<Hash128>> whole_keys_;
+  std::vector<std::unique_ptr<std::atomic<bool>[]>>
+      asked_;  ///< of what is made anew whenever asked for: by output, then item
+  std::atomic<std::size_t> passed_bytes_ = 0;  ///< the biggest value that passed so far
+};
+
+}  // namespace plumb

@@ -1,0 +1,162 @@
+/// A step on whole collections: reused, made here or elsewhere, and its values named.
+#include <algorithm>
+
+#include "plumb/data/error.hpp"
+#include "plumb/engine/plan/step_key.hpp"
+#include "plumb/engine/run/item_context.hpp"
+#include "plumb/engine/run/step_run.hpp"
+#include "plumb/store/blob.hpp"
+
+namespace plumb {
+namespace {
+
+/// Results of whole steps stay in memory when they are small, and when they are files, which the
+/// run holds until its end anyway.
+bool stays_in_memory(const StoredResult& result) {
+  constexpr std::size_t small = std::size_t{1} << 20;
+  for (const auto& values : result.outputs)
+    for (const AnyValue& value : values)
+      if (value.type == &type_of<Document>()) return true;
+  return memory_of(result) <= small;
+}
+
+}  // namespace
+
+void StepRun::start_whole() {
+  const Stopwatch watch(state_.books, plan_.path);
+  state_.books.step_begins(plan_.path, state_.pass, 1);
+  whole_key_ = call_key(0);
+  if (find_whole()) {
+    Stopwatch::item("", state_.pass, true);
+  } else {
+    if (state_.executor) {
+      make_whole_elsewhere();
+    } else {
+      StoredResult said;
+      auto outputs = call(0, &said);
+      take_whole(std::move(outputs), std::move(said));
+      Stopwatch::item("", state_.pass, false);
+    }
+  }
+  name_values();
+  if (!state_.results.store()) inputs_.clear();
+}
+
+/// Only what is plain is looked up: what is lazy must be made, for its values are made when asked
+/// for. Without a store only values of the whole pipeline are remembered.
+bool StepRun::find_whole() {
+  bool single = true;
+  for (const auto& output : plan_.description->outputs) single &= output.emission == Emission::one;
+  const bool store = state_.results.store() != nullptr;
+  if (lazy() || !(store || (keeping_ == Keeping::remembered && single))) return false;
+  const bool here = store && state_.results.in_store(whole_key_);
+  auto found = find(whole_key_);
+  if (!found) return false;
+  if (store && !here) say_again(*found);
+  if (!state_.results.in_store(whole_key_) || stays_in_memory(*found))
+    whole_pin_ = std::move(found);
+  return true;
+}
+
+void StepRun::take_whole(std::vector<PortOutput> outputs, StoredResult said) {
+  for (PortOutput& output : outputs) lazy_.push_back(std::move(output.lazy));
+  StoredResult result = result_of(outputs, std::move(said));
+  if (lazy()) {
+    whole_pin_ = std::make_shared<const StoredResult>(std::move(result));
+    return;
+  }
+  const bool stays = stays_in_memory(result);
+  SharedResult made = kept(whole_key_, std::move(result), whole_pin_);
+  if (stays) whole_pin_ = std::move(made);
+}
+
+void StepRun::make_whole_elsewhere() {
+  state_.executor->make(*this, {0}, [&](const Reply& reply) {
+    book(reply);
+    if (!reply.fault.empty()) throw NestedError(reply.fault);
+    lazy_.resize(plan_.description->outputs.size());
+    for (std::size_t o = 0; o < std::min(reply.lazy.size(), lazy_.size()); ++o) {
+      lazy_[o].keys = reply.lazy[o];
+      lazy_[o].open = [](std::size_t, Context&) -> AnyValue {
+        throw Error(
+            "its values are made by workers alone; a result was lost from the store meanwhile: run "
+            "again, it is made anew");
+      };
+    }
+    if (lazy()) {
+      auto result = read_blob(whole_key_, reply.result);
+      if (!result || !misfit_of(*result).empty())
+        throw NestedError(title(0) + ": its worker gave a result that cannot be read; run again");
+      whole_pin_ = std::make_shared<const StoredResult>(std::move(*result));
+    } else {
+      state_.results.made_elsewhere(whole_key_, plan_.description->name);
+      auto found = find(whole_key_);
+      if (!found)
+        throw NestedError(
+            title(0) +
+            ": its result did not come into the store; is the folder the same for all processes?");
+      if (stays_in_memory(*found)) whole_pin_ = std::move(found);
+    }
+  });
+}
+
+void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys,
+                          Source edges) {
+  if (edges.run) edges_ = edges.run->value(edges.output).as<Edges>();
+  edges_source_ = std::move(edges);
+  whole_key_ = key;
+  whole_keys_ = std::move(keys);
+}
+
+/// Gives every value its key, by content; what is lazy by what its step says of it.
+void StepRun::name_values() {
+  const auto result = whole();
+  const auto& outputs = plan_.description->outputs;
+  whole_keys_.resize(outputs.size());
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    for (const AnyValue& value : result->outputs[o])
+      whole_keys_[o].push_back(outputs[o].type->hash(value.value.get()));
+    if (o < lazy_.size())
+      for (const Hash128& key : lazy_[o].keys) whole_keys_[o].push_back(joined_key(base_key_, key));
+    check_items(o);
+    asked_.push_back(std::make_unique<std::atomic<bool>[]>(whole_keys_[o].size()));
+  }
+}
+
+/// Many values that belong to the items of an input must be as many.
+void StepRun::check_items(std::size_t output) {
+  const OutputDescription& port = plan_.description->outputs[output];
+  const Source* source = source_over(output);
+  if (!source) return;
+  const std::size_t items = source->run->count(source->output), made = whole_keys_[output].size();
+  if (made != items)
+    throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" +
+                port.name + "' has " + std::to_string(made) + " values where its input '" +
+                port.over + "' has " + std::to_string(items) + "; the step must give one for each");
+  if (port.type->grain == Grain::edge)
+    edges_source_ = source->run->edges_source(), edges_ = source->run->edges();
+}
+
+/// The input to whose items the values of an output belong; null when they are items of their own.
+const Source* StepRun::source_over(std::size_t output) const {
+  const OutputDescription& port = plan_.description->outputs[output];
+  if (port.over.empty()) return nullptr;
+  for (std::size_t p = 0; p < inputs_.size(); ++p)
+    if (plan_.description->inputs[p].name == port.over && !inputs_[p].empty())
+      return &inputs_[p].front();
+  return nullptr;
+}
+
+/// The result, back from the store if it left memory; made again if it is gone from there.
+SharedResult StepRun::whole() {
+  if (whole_pin_) return whole_pin_;
+  if (auto found = state_.results.find(whole_key_)) return found;
+  if (inputs_.empty() && !plan_.description->inputs.empty())
+    throw NestedError(title(0) + ": its result is gone from the store; run again, it is made anew");
+  StoredResult said;
+  auto outputs = call(0, &said);
+  SharedResult pin;
+  return kept(whole_key_, result_of(outputs, std::move(said)), pin);
+}
+
+}  // namespace plumb

@@ -1,0 +1,68 @@
+#pragma once
+/// The pose in a window that lays points best onto a likelihood field: every pose of a grid is
+/// judged, by branch and bound. Sources: [Olson2009], [Hess2016].
+
+#include <optional>
+#include <vector>
+
+#include "plumb/geometry/likelihood_field.hpp"
+#include "plumb/geometry/planar.hpp"
+
+namespace plumb {
+
+/// What is believed before looking: a score is lowered by up to `share`, by half of it at
+/// `distance` [m] or at `yaw` [rad] from `pose`. Where the points do not say, as along a corridor,
+/// this does; where they do by more than `share`, they win however far off.
+struct Trust {
+  PlanarPose pose;
+  double share = 0, distance = 0.05, yaw = 0.05;
+
+  /// What it takes from the score of `other`.
+  double lost(const PlanarPose& other) const {
+    const double dx = (other.x - pose.x) / distance, dy = (other.y - pose.y) / distance;
+    const double turn = wrapped(other.yaw - pose.yaw) / yaw;
+    const double square = dx * dx + dy * dy + turn * turn;
+    return share * square / (1 + square);
+  }
+};
+
+/// Where to look: `centre` +- the half widths [m], [rad].
+struct SearchWindow {
+  PlanarPose centre;
+  double x = 0.5, y = 0.5, yaw = 0.3;
+  Trust trust = {};
+};
+
+/// Poses that are not looked at: those nearer than `distance` [m] and `yaw` [rad] to `pose`.
+struct Excluded {
+  PlanarPose pose;
+  double distance = 0, yaw = 0;
+};
+
+struct Peak {
+  PlanarPose pose;   ///< lays the points onto the field
+  double score = 0;  ///< mean value of the points' cells, 0 to 1, less what `trust` takes
+};
+
+/// The best pose of the window's grid (one cell in x and y, `yaw_step` [rad] in yaw) whose score is
+/// above `least`; none if there is none. Exact: the same as trying each. Of equal ones the first in
+/// the order of yaw, y, x counts.
+std::optional<Peak> best_pose(const LikelihoodField& field, const std::vector<float>& x,
+                              const std::vector<float>& y, const SearchWindow& window,
+                              double yaw_step, double least,
+                              const std::optional<Excluded>& excluded = {});
+
+/// Mean value of the points' cells under a pose, 0 to 1.
+double score_of(const LikelihoodField& field, const std::vector<float>& x,
+                const std::vector<float>& y, const PlanarPose& pose);
+
+/// `peak` moved by less than half a cell, to the tops of the parabolas through the scores of its
+/// neighbours in x, y and yaw, less what `trust` takes.
+PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
+                         const std::vector<float>& y, const PlanarPose& peak, double yaw_step,
+                         const Trust& trust = {});
+
+/// The step of yaw [rad] that moves nine of ten of the points by at most a cell.
+double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, double resolution);
+
+}  // namespace plumb

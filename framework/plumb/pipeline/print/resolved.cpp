@@ -1,0 +1,170 @@
+/// The pipeline that results, as YAML, each value with the place that it came from.
+#include "plumb/pipeline/print/resolved.hpp"
+
+#include <algorithm>
+
+#include "plumb/data/io/plain_text.hpp"
+
+namespace plumb::pipeline {
+namespace {
+
+bool needs_quotes(const std::string& text, bool in_flow) {
+  if (text.empty() || text.front() == ' ' || text.back() == ' ' || text.back() == ':') return true;
+  if (std::string_view("?:,[]{}#&*!|>'\"%@`").find(text.front()) != std::string_view::npos)
+    return true;
+  if (text.front() == '-' &&
+      (text.size() == 1 || !std::isdigit(static_cast<unsigned char>(text[1]))))
+    return true;
+  if (text == "~" || text == "null" || text == "Null" || text == "NULL") return true;
+  if (text.find(": ") != std::string::npos || text.find(" #") != std::string::npos) return true;
+  if (io::plain(text) != text) return true;
+  return in_flow && text.find_first_of(",[]{}") != std::string::npos;
+}
+
+std::string scalar(const std::string& text, bool was_quoted, bool in_flow) {
+  return was_quoted || needs_quotes(text, in_flow) ? io::plain_in_quotes(text) : text;
+}
+
+/// As plumb::written, but so that it reads back as the same value.
+std::string exactly(const ParameterDescription& parameter, const ParameterValue& value) {
+  const auto* si = std::get_if<double>(&value);
+  const std::string text = written(parameter, value);
+  if (!si || parameter.quantity == Quantity::none) return text;
+  for (const Unit& unit : units()) {
+    if (unit.quantity != parameter.quantity) continue;
+    for (const std::string& tried : {text, shortest(*si / unit.factor) + " " + unit.symbol}) {
+      const auto number = read_number(tried);
+      const auto* measured = std::get_if<Measured>(&number);
+      if (measured && measured->si == *si) return tried;
+    }
+  }
+  return text;
+}
+
+std::string flow(const Node& node) {  // NOLINT: as deep as the tree, at most 64
+  std::string text;
+  switch (node.kind) {
+    case Node::Kind::none:
+      return "";
+    case Node::Kind::scalar:
+      return scalar(node.text, node.quoted, true);
+    case Node::Kind::list:
+      for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + flow(item);
+      return "[" + text + "]";
+    case Node::Kind::map:
+      for (const Entry& entry : node.entries)
+        text +=
+            (text.empty() ? "" : ", ") + scalar(entry.key, false, true) + ": " + flow(entry.value);
+      return "{" + text + "}";
+  }
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Draft& draft) : draft_(draft) {
+    for (std::size_t k = 0; k < draft.steps.size(); ++k)
+      step_of_[draft.steps[k].node] = static_cast<int>(k);
+  }
+
+  std::string write() {
+    map(draft_.tree, 0);
+    return std::move(text_);
+  }
+
+ private:
+  void line(int depth, const std::string& content, const std::string& comment) {
+    text_ += std::string(2 * depth, ' ') + content;
+    if (!comment.empty()) {
+      const std::size_t width = 2 * depth + content.size();
+      std::string safe = comment;
+      std::replace_if(
+          safe.begin(), safe.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      text_ += std::string(width < 58 ? 58 - width : 2, ' ') + "# " + safe;
+    }
+    text_ += "\n";
+  }
+
+  void map(const Node& node, int depth) {
+    const auto step = step_of_.find(&node);
+    for (const Entry& entry : node.entries) {
+      const bool with = step != step_of_.end() && entry.key == "with";
+      const std::string key = scalar(entry.key, false, false) + ":";
+      if (entry.value.is_map() && entry.key != "from" && entry.key != "start" &&
+          entry.key != "carry" && entry.key != "until") {
+        line(depth, key, "");
+        if (with)
+          parameters(entry.value, step->second, depth + 1);
+        else
+          map(entry.value, depth + 1);
+      } else {
+        line(depth, key + " " + value(node, entry), entry.value.origin.text());
+      }
+    }
+    if (step != step_of_.end() && !node.at("with") &&
+        !draft_.plan.steps[step->second].parameters.empty()) {
+      line(depth, "with:", "");
+      parameters({}, step->second, depth + 1);
+    }
+  }
+
+  std::string value(const Node& around, const Entry& entry) const {
+    const Node* type = around.at("type");
+    if (entry.key == "default" && type && type->text == "path" && entry.value.text != "none")
+      if (const auto path = absolute(entry.value)) return *path;
+    return entry.value.is_scalar() ? scalar(entry.value.text, entry.value.quoted, false)
+                                   : flow(entry.value);
+  }
+
+  static std::optional<std::string> absolute(const Node& node) {
+    ParameterDescription type;
+    type.kind = ParameterKind::path;
+    auto value = read_value(type, node);
+    if (const auto* read = std::get_if<ParameterValue>(&value))
+      return scalar(std::get<std::string>(*read), node.quoted, false);
+    return std::nullopt;
+  }
+
+  /// A step's parameters, those at their defaults too, in the order declared.
+  void parameters(const Node& with, int index, int depth) {
+    const PlannedStep& step = draft_.plan.steps[index];
+    for (std::size_t k = 0; k < step.parameters.size(); ++k) {
+      const ParameterDescription& description = step.description->parameters[k];
+      const PlannedParameter& planned = step.parameters[k];
+      const Node* node = with.at(description.name);
+      if (!node) {
+        const bool words = description.kind == ParameterKind::text ||
+                           description.kind == ParameterKind::path ||
+                           description.kind == ParameterKind::choice;
+        const bool none = std::holds_alternative<std::monostate>(planned.value);
+        const std::string text = exactly(description, planned.value);
+        if (description.required) continue;
+        line(depth,
+             description.name + ": " +
+                 scalar(text,
+                        words && !none && (text == "none" || text.find('$') != std::string::npos),
+                        false),
+             "default of " + step.description->name);
+        continue;
+      }
+      std::string text = node->is_scalar() ? scalar(node->text, node->quoted, false) : flow(*node);
+      if (description.kind == ParameterKind::path && !reference_in(*node) &&
+          !std::holds_alternative<std::monostate>(planned.value))
+        text = scalar(std::get<std::string>(planned.value), node->quoted, false);
+      std::string origin = node->origin.text();
+      if (reference_in(*node) && planned.repeat < 0)
+        origin += ": " + written(description, planned.value) + ", " + planned.origin.text();
+      line(depth, description.name + ": " + text, origin);
+    }
+  }
+
+  const Draft& draft_;
+  std::map<const Node*, int> step_of_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string resolved_text(const Draft& draft) { return Writer(draft).write(); }
+
+}  // namespace plumb::pipeline

@@ -1,0 +1,14 @@
+#pragma once
+/// The passes of every repeat as a table, for `plumb check`.
+
+#include <string>
+
+#include "plumb/pipeline/bind/plan.hpp"
+
+namespace plumb {
+
+/// One table a repeat: a line a pass, a column a row; the last line for passes that repeat the last
+/// column. Empty without repeats.
+std::string passes_table(const Plan& plan);
+
+}  // namespace plumb

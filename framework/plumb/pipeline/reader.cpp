@@ -1,0 +1,56 @@
+#include "plumb/pipeline/reader.hpp"
+
+#include "plumb/pipeline/bind/draft.hpp"
+#include "plumb/pipeline/check/checks.hpp"
+#include "plumb/pipeline/print/resolved.hpp"
+#include "plumb/pipeline/yaml/load.hpp"
+
+namespace plumb {
+
+using namespace pipeline;
+
+namespace {
+
+Plan plan_of(Node tree, std::vector<std::string> files, const Overlay& overlay,
+             const Registry& registry, Diagnostics& diagnostics) {
+  Draft draft{registry, diagnostics, std::move(tree), overlay.open, {}, {}, {}, {}, {}, false};
+  draft.plan.files = std::move(files);
+  read_settings(draft);
+  read_steps(draft);
+  read_parameters(draft);
+  read_wires(draft);
+  read_conditions(draft);
+  find_unused(draft);
+  if (overlay.untrusted)
+    find_foreign_paths(draft);
+  else if (overlay.needs_files)
+    find_missing_files(draft);
+  find_order(draft);
+  find_domains(draft);
+  diagnostics.raise();
+
+  draft.plan.resolved = resolved_text(draft);
+  return std::move(draft.plan);
+}
+
+}  // namespace
+
+Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                   const Registry& registry) {
+  Diagnostics diagnostics;
+  std::vector<std::string> files;
+  auto tree = load_pipeline(file, overlay, diagnostics, files);
+  if (!tree) diagnostics.raise();
+  return plan_of(std::move(*tree), std::move(files), overlay, registry, diagnostics);
+}
+
+Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry) {
+  Diagnostics diagnostics;
+  auto tree = parse_yaml(text, name, diagnostics);
+  if (!tree) diagnostics.raise();
+  Overlay overlay;
+  overlay.needs_files = true;
+  return plan_of(std::move(*tree), {name}, overlay, registry, diagnostics);
+}
+
+}  // namespace plumb

@@ -1,0 +1,29 @@
+#pragma once
+/// YAML -> checked pipeline. Every mistake is found here, before any data is read, and all of them
+/// are told at once.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plumb/pipeline/bind/plan.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
+#include "plumb/pipeline/yaml/overlay.hpp"
+#include "plumb/plugin/registry.hpp"
+
+namespace plumb {
+
+/// Reads and checks a pipeline, or a preset that extends one. Throws PipelineError with every
+/// mistake that it finds.
+Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                   const Registry& registry);
+
+/// The values of path parameters that come from the command line: what a stranger's pipeline may
+/// read.
+std::vector<std::filesystem::path> given_paths(const Plan& plan);
+
+/// The same of a text that stands for itself: a plan's `resolved`. `name` is what places are said
+/// to be in. Paths must be absolute, and lead somewhere.
+Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry);
+
+}  // namespace plumb

@@ -1,0 +1,40 @@
+#pragma once
+/// Presets and `--set`: edits of the pipeline's tree, made before anything in it is read.
+
+#include "plumb/pipeline/yaml/overlay.hpp"
+#include "plumb/pipeline/yaml/tree.hpp"
+
+namespace plumb::pipeline {
+
+/// A file and what it extends, the pipeline first.
+struct Chain {
+  struct Link {
+    std::filesystem::path canonical;
+    std::string file;  ///< as shown
+    Node tree;
+  };
+  std::vector<Link> links;
+};
+
+/// Reads `file` and, if it extends another, that one too; a preset is to lie over `pipeline`,
+/// beside which one of nearly its name is looked for. Empty when one cannot be read; the diagnostic
+/// is written.
+Chain read_chain(const std::filesystem::path& file, const std::filesystem::path& pipeline,
+                 Diagnostics& diagnostics);
+
+/// The pipeline as one tree: `file`, what it lays over what it extends, then presets and sets.
+/// `files` gets all names.
+std::optional<Node> load_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                                  Diagnostics& diagnostics, std::vector<std::string>& files);
+
+/// Applies `remove`, `replace`, `add` and `set` of an overlay's tree, in this order.
+void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics);
+
+/// Applies the edits that stand for one pipeline under an overlay's 'also': a preset may serve more
+/// pipelines than the one it extends.
+void apply_also(Node& pipeline, const Node& edits, Diagnostics& diagnostics);
+
+/// Applies one "path=value" of the command line.
+void apply_set(Node& pipeline, const std::string& option, Diagnostics& diagnostics);
+
+}  // namespace plumb::pipeline

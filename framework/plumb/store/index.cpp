@@ -1,0 +1,235 @@
+/// What is asked of the index and written to it. How it is opened, checked and closed:
+/// index_life.cpp.
+#include "plumb/store/index.hpp"
+
+#include <chrono>
+#include <set>
+
+#include "plumb/data/archive.hpp"
+#include "plumb/store/blob_file.hpp"
+#include "plumb/store/database.hpp"
+#include "plumb/store/index_tables.hpp"
+
+namespace plumb {
+namespace {
+
+std::int64_t now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+[[noreturn]] void refuse_row(const char* table) {
+  throw DatabaseError(DatabaseError::Cause::damage,
+                      std::string("a row of its table '") + table + "' is not as it was written");
+}
+
+constexpr const char* put_result =
+    "INSERT OR REPLACE INTO results VALUES(?1, ?2, ?3, ?4, ?5, row_sum(?1, ?2, ?3, ?4, ?5))";
+
+}  // namespace
+
+template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, Fact>
+void fields(Archive& a, T& fact) { a(fact.name, fact.value); }
+
+Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
+  open();
+}
+Index::~Index() { close(); }
+
+/// Runs what asks the database. When that is found to be damaged it is made anew and asked again;
+/// what else is wrong ends its use.
+template <class Action>
+void Index::with_database(Action action) {
+  const std::lock_guard lock(database_mutex_);
+  for (int attempt = 0; database_ && attempt < 2; ++attempt) {
+    try {
+      return action(*database_);
+    } catch (const DatabaseError& e) {
+      if (e.cause() == DatabaseError::Cause::busy) return database_->wait_no_more();
+      if (e.cause() == DatabaseError::Cause::system) return fail(e.what());
+      mend_while_open(e.what());
+    }
+  }
+}
+
+void Index::made(const Hash128& key, std::string_view step, std::uint64_t bytes) {
+  const std::lock_guard lock(notes_mutex_);
+  notes_.results[key] = {true, false, std::string(step), bytes, now_ms()};
+}
+
+void Index::used(const Hash128& key) {
+  const std::lock_guard lock(notes_mutex_);
+  Note& note = notes_.results[key];
+  note.gone = false;
+  note.time = now_ms();
+}
+
+void Index::gone(const Hash128& key) {
+  const std::lock_guard lock(notes_mutex_);
+  notes_.results[key] = {false, true, "", 0, 0};
+}
+
+std::vector<Fact> Index::facts(const std::string& pipeline, const std::string& path, int pass) {
+  {
+    const std::lock_guard lock(notes_mutex_);
+    if (const auto at = notes_.facts.find({pipeline, path, pass}); at != notes_.facts.end())
+      return at->second;
+  }
+  std::vector<Fact> found;
+  with_database([&](Database& database) {
+    Statement ask(database,
+                  "SELECT facts, sum IS row_sum(pipeline, path, pass, facts) FROM facts WHERE "
+                  "pipeline = ?1 AND path = ?2 AND pass = ?3");
+    if (!ask.with(pipeline, path, pass).next()) return;
+    if (ask.number(1) != 1) refuse_row("facts");
+    try {
+      found = from_bytes<std::vector<Fact>>(ask.text(0));
+    } catch (const Error&) {
+      refuse_row("facts");
+    }
+  });
+  return found;
+}
+
+void Index::set_facts(const std::string& pipeline, const std::string& path, int pass,
+                      std::vector<Fact> facts) {
+  const std::lock_guard lock(notes_mutex_);
+  notes_.facts[{pipeline, path, pass}] = std::move(facts);
+}
+
+std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t size,
+                                        std::int64_t mtime_ns) {
+  {
+    const std::lock_guard lock(notes_mutex_);
+    if (const auto at = notes_.file_hashes.find(path); at != notes_.file_hashes.end())
+      return at->second.size == size && at->second.mtime_ns == mtime_ns
+                 ? std::optional(at->second.hash)
+                 : std::nullopt;
+  }
+  std::optional<Hash128> found;
+  with_database([&](Database& database) {
+    Statement ask(database,
+                  "SELECT size, mtime_ns, hash, sum IS row_sum(path, size, mtime_ns, hash) FROM "
+                  "file_hashes WHERE path = ?1");
+    if (!ask.with(path).next()) return;
+    if (ask.number(3) != 1) refuse_row("file_hashes");
+    if (static_cast<std::uint64_t>(ask.number(0)) == size && ask.number(1) == mtime_ns)
+      found = ask.hash(2);
+  });
+  return found;
+}
+
+void Index::set_file_hash(const std::string& path, std::uint64_t size, std::int64_t mtime_ns,
+                          const Hash128& hash) {
+  const std::lock_guard lock(notes_mutex_);
+  notes_.file_hashes[path] = {size, mtime_ns, hash};
+}
+
+void Index::flush() {
+  Notes notes;
+  {
+    const std::lock_guard lock(notes_mutex_);
+    std::swap(notes, notes_);
+  }
+  if (notes.empty()) return;
+  bool written = false;
+  with_database([&](Database& database) {
+    Transaction transaction(database);
+    write(database, notes);
+    transaction.commit();
+    written = true;
+  });
+  if (written || !fault().empty()) return;
+  const std::lock_guard lock(notes_mutex_);  // others kept it busy: the next time
+  notes_.results.merge(notes.results);
+  notes_.facts.merge(notes.facts);
+  notes_.file_hashes.merge(notes.file_hashes);
+}
+
+void Index::write(Database& database, const Notes& notes) {
+  Statement put(database, put_result);
+  Statement use(database,
+                "UPDATE results SET used = ?2, sum = row_sum(key, step, bytes, made, ?2) "
+                "WHERE key = ?1 AND sum IS row_sum(key, step, bytes, made, used)");
+  Statement known(database, "SELECT 1 FROM results WHERE key = ?1");
+  Statement take(database, "DELETE FROM results WHERE key = ?1");
+  for (const auto& [key, note] : notes.results) {
+    if (note.gone)
+      take.with(key).run();
+    else if (note.made)
+      put.with(key, note.step, note.bytes, note.time, note.time).run();
+    else {
+      use.with(key, note.time).run();
+      if (database.changed() > 0) continue;
+      if (known.with(key).next()) refuse_row("results");
+      const auto file =
+          blob_file(store_, key);  // made by a run that was killed before it could say so
+      const auto bytes = size_of_file(file);
+      if (const auto head = head_in(file, key); head && bytes)
+        put.with(key, head->step, *bytes, note.time, note.time).run();
+    }
+  }
+  Statement put_facts(
+      database, "INSERT OR REPLACE INTO facts VALUES(?1, ?2, ?3, ?4, row_sum(?1, ?2, ?3, ?4))");
+  for (const auto& [of, list] : notes.facts)
+    put_facts.with(std::get<0>(of), std::get<1>(of), std::get<2>(of), Bytes{to_bytes(list)}).run();
+  Statement put_hash(
+      database,
+      "INSERT OR REPLACE INTO file_hashes VALUES(?1, ?2, ?3, ?4, row_sum(?1, ?2, ?3, ?4))");
+  for (const auto& [path, seen] : notes.file_hashes)
+    put_hash.with(path, seen.size, seen.mtime_ns, seen.hash).run();
+}
+
+/// Gives rows to files that have none and takes those away that have no file.
+void Index::follow_files(Database& database) {
+  std::set<Hash128> without;  // first all rows, in the end those without a file
+  Statement all(database, "SELECT key FROM results");
+  while (all.next()) without.insert(all.hash(0));
+  Transaction transaction(database);
+  Statement put(database, put_result), take(database, "DELETE FROM results WHERE key = ?1");
+  for_each_blob(store_, [&](const Hash128& key, const std::filesystem::path& blob) {
+    if (without.erase(key) > 0) return;
+    std::error_code error;
+    const auto bytes = size_of_file(blob);
+    const auto written = std::filesystem::last_write_time(blob, error);
+    const auto head = head_in(blob, key);
+    if (error || !bytes || !head) return;  // gone, or no blob: whoever looks for it will tell
+    const auto made = std::chrono::duration_cast<std::chrono::milliseconds>(
+                          std::chrono::file_clock::to_sys(written).time_since_epoch())
+                          .count();
+    put.with(key, head->step, *bytes, made, made).run();
+  });
+  for (const Hash128& key : without) take.with(key).run();
+  transaction.commit();
+}
+
+void Index::check() {
+  flush();
+  with_database([&](Database& database) {
+    if (const std::string why = damage_in(database); !why.empty())
+      throw DatabaseError(DatabaseError::Cause::damage, why);
+    follow_files(database);
+  });
+}
+
+std::vector<IndexRow> Index::rows() {
+  flush();
+  std::vector<IndexRow> all;
+  with_database([&](Database& database) {
+    std::vector<IndexRow> rows;
+    Statement ask(database,
+                  "SELECT key, step, bytes, made, used, sum IS row_sum(key, step, bytes, made, "
+                  "used) FROM results ORDER BY used, key");
+    while (ask.next()) {
+      if (ask.number(5) != 1) refuse_row("results");
+      rows.push_back({ask.hash(0), ask.text(1), static_cast<std::uint64_t>(ask.number(2)),
+                      ask.number(3), ask.number(4)});
+    }
+    all = std::move(rows);
+  });
+  return all;
+}
+
+}  // namespace plumb

@@ -1,0 +1,133 @@
+#pragma once
+/// What a store knows of its results without opening their files: an SQLite database beside them.
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "plumb/data/hash.hpp"
+#include "plumb/store/whose.hpp"
+
+namespace plumb {
+
+class Database;
+
+/// One result of a store.
+struct IndexRow {
+  Hash128 key;
+  std::string step;                 ///< registered name: describe.fpfh
+  std::uint64_t bytes = 0;          ///< of its file
+  std::int64_t made = 0, used = 0;  ///< [ms] since 1970
+};
+
+/// One thing that a step's key was made from, as a reader understands it: "version", "2".
+struct Fact {
+  std::string name, value;
+  bool operator==(const Fact&) const = default;
+};
+
+/// The index of a store, which holds nothing that the results do not say themselves but when they
+/// were used, why they were made, and hashes of input files:
+///
+///     DIR/index.sqlite   the tables results, facts and file_hashes; each row with its own checksum
+///     DIR/index.lock     locked by all who use the index, shared; alone by the first who opens and
+///     the last who closes it (index_life.cpp) DIR/index.sum      XXH3-128 of index.sqlite, while
+///     nobody uses it
+///
+/// A damaged index is noticed and made anew from the results. What is written is collected and
+/// reaches the disk by flush(). Nothing here throws because of what is on the disk: an index that
+/// cannot be used answers as if it were empty. All functions are safe from several threads;
+/// processes of one machine may share an index.
+class Index {
+ public:
+  explicit Index(std::filesystem::path store, Whose whose = Whose::own);
+  ~Index();  ///< flushes
+  Index(const Index&) = delete;
+  Index& operator=(const Index&) = delete;
+
+  void made(const Hash128& key, std::string_view step, std::uint64_t bytes);
+  void used(const Hash128& key);
+  void gone(const Hash128& key);
+
+  /// What step `path` of a pipeline was keyed by in pass `pass` of its last run; empty when it is
+  /// not known.
+  std::vector<Fact> facts(const std::string& pipeline, const std::string& path, int pass);
+  void set_facts(const std::string& pipeline, const std::string& path, int pass,
+                 std::vector<Fact> facts);
+
+  /// The content hash of an input file that had this size and time of change [ns]; none when it is
+  /// not known.
+  std::optional<Hash128> file_hash(const std::string& path, std::uint64_t size,
+                                   std::int64_t mtime_ns);
+  void set_file_hash(const std::string& path, std::uint64_t size, std::int64_t mtime_ns,
+                     const Hash128& hash);
+
+  /// Writes what was collected, in one transaction.
+  void flush();
+  /// Looks at every row, and gives rows to results that have none, and takes those away that have
+  /// no result.
+  void check();
+  /// All results, least recently used first.
+  std::vector<IndexRow> rows();
+
+  /// Why the index had to be made anew from the results; empty when it had not.
+  std::string rebuilt() const;
+  /// Why the index is not used any more, as on a full disk; empty when it is.
+  std::string fault() const;
+
+ private:
+  struct Note {
+    bool made = false, gone = false;
+    std::string step;
+    std::uint64_t bytes = 0;
+    std::int64_t time = 0;
+  };
+  struct FileHash {
+    std::uint64_t size = 0;
+    std::int64_t mtime_ns = 0;
+    Hash128 hash;
+  };
+  using FactsOf = std::tuple<std::string, std::string, int>;
+  struct Notes {
+    std::unordered_map<Hash128, Note, Hash128Hash> results;
+    std::map<FactsOf, std::vector<Fact>> facts;
+    std::map<std::string, FileHash> file_hashes;
+    bool empty() const { return results.empty() && facts.empty() && file_hashes.empty(); }
+  };
+
+  template <class Action>
+  void with_database(Action action);
+  void write(Database& database, const Notes& notes);
+  void follow_files(Database& database);
+
+  // index_life.cpp
+  void open();
+  void close();
+  void mend();
+  void seal();
+  void connect();
+  void mend_while_open(const std::string& why);
+  void rebuild(const std::string& why);
+  void fail(const std::string& why);
+  std::filesystem::path file() const { return store_ / "index.sqlite"; }
+
+  std::filesystem::path store_;
+  Whose whose_;
+  int lock_ = -1;
+  std::mutex notes_mutex_, database_mutex_;
+  mutable std::mutex said_mutex_;
+  Notes notes_;                         ///< what flush() is to write
+  std::unique_ptr<Database> database_;  ///< none: not to be used
+  std::string rebuilt_, fault_;
+};
+
+}  // namespace plumb

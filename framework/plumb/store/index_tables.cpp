@@ -1,0 +1,58 @@
+#include "plumb/store/index_tables.hpp"
+
+#include <array>
+
+namespace plumb {
+namespace {
+
+struct Table {
+  std::string name, definition, columns;  ///< the columns that `sum` is of
+};
+
+const std::array<Table, 3>& tables() {
+  static const std::array<Table, 3> all = {{
+      {"results",
+       "CREATE TABLE results(key BLOB PRIMARY KEY, step TEXT, bytes INTEGER, made INTEGER, used "
+       "INTEGER, sum INTEGER) WITHOUT ROWID",
+       "key, step, bytes, made, used"},
+      {"facts",
+       "CREATE TABLE facts(pipeline TEXT, path TEXT, pass INTEGER, facts BLOB, sum INTEGER, "
+       "PRIMARY KEY(pipeline, path, pass)) WITHOUT ROWID",
+       "pipeline, path, pass, facts"},
+      {"file_hashes",
+       "CREATE TABLE file_hashes(path TEXT PRIMARY KEY, size INTEGER, mtime_ns INTEGER, hash BLOB, "
+       "sum INTEGER) WITHOUT ROWID",
+       "path, size, mtime_ns, hash"},
+  }};
+  return all;
+}
+
+}  // namespace
+
+void make_tables(Database& database) {
+  Transaction all_or_none(database);
+  for (const Table& table : tables()) database.run(table.definition.c_str());
+  all_or_none.commit();
+}
+
+bool has_tables(Database& database) {
+  return database.ask("SELECT 1 FROM sqlite_schema LIMIT 1") == "1";
+}
+
+std::string damage_in(Database& database) {
+  Statement definitions(database, "SELECT sql FROM sqlite_schema ORDER BY rowid");
+  for (const Table& table : tables())
+    if (!definitions.next() || definitions.text(0) != table.definition)
+      return "its tables are not those of this program";
+  if (definitions.next()) return "its tables are not those of this program";
+  if (const std::string said = database.ask("PRAGMA quick_check(1)"); said != "ok")
+    return "its pages do not fit together (" + said + ")";
+  for (const Table& table : tables())
+    if (database.ask(("SELECT 1 FROM " + table.name + " WHERE sum IS NOT row_sum(" + table.columns +
+                      ") LIMIT 1")
+                         .c_str()) == "1")
+      return "a row of its table '" + table.name + "' is not as it was written";
+  return "";
+}
+
+}  // namespace plumb
