@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers that a reader must not let through.
+/// Numbers that a reader must not let through; a rotation is one of norm 1.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace plumb {
 
 inline bool is_finite(const Pose& pose) {
-  return pose.translation.allFinite() && pose.rotation.coeffs().allFinite();
+  return pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1) < 1e-6;
 }
 inline bool is_finite(const std::vector<Pose>& poses) {
   return std::ranges::all_of(poses, [](const Pose& pose) { return is_finite(pose); });

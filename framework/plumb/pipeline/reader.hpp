@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/pipeline/bind/plan.hpp"
+#include "plumb/pipeline/check/given_paths.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/pipeline/yaml/overlay.hpp"
 #include "plumb/plugin/registry.hpp"
@@ -18,11 +19,7 @@ namespace plumb {
 Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
                    const Registry& registry);
 
-/// The values of path parameters that come from the command line: what a stranger's pipeline may
-/// read.
-std::vector<std::filesystem::path> given_paths(const Plan& plan);
-
-/// The same of a text that stands for itself: a plan's `resolved`. `name` is what places are said
+/// The same as read_pipeline of a text that stands for itself: a plan's `resolved`. `name` is what places are said
 /// to be in. Paths must be absolute, and lead somewhere.
 Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry);
 

@@ -25,10 +25,6 @@ struct Fixed {
   std::size_t line;
 };
 
-Pose planar_pose(std::span<const double> v) {
-  return {exp_rotation({0, 0, v[2]}), Eigen::Vector3d(v[0], v[1], 0)};
-}
-
 /// The symmetric matrix of which `v` is the upper triangle, row by row.
 Eigen::MatrixXd symmetric(std::span<const double> v, int rows) {
   Eigen::MatrixXd m(rows, rows);
@@ -92,6 +88,7 @@ class Reader {
                         line_,
                         {0, 0, planar_pose(std::span(v).first(3)),
                          from_plane(symmetric(std::span(v).last(6), 3))}});
+      if (!edges_.back().relation.information.allFinite()) refuse("the information is too large");
       is_planar(true);
     } else if (word == "FIX") {
       do fixed_.push_back({number(rest, word), line_});
@@ -130,8 +127,15 @@ class Reader {
     const double norm = q.coeffs().stableNorm();
     if (!(norm > 1e-6))
       refuse("the quaternion has norm 0, so it is no rotation: no rotation is 0 0 0 1");
+    if (!std::isfinite(norm)) refuse("the quaternion is too large: its norm is 1");
     q.coeffs() /= norm;
     return {q, Eigen::Vector3d(v[0], v[1], v[2])};
+  }
+  /// Of a heading with more turns than a double can tell apart nothing is left.
+  Pose planar_pose(std::span<const double> v) {
+    if (std::abs(v[2]) > 1e6)
+      refuse("the heading is no angle: expected radians, at most a million to either side");
+    return {exp_rotation({0, 0, v[2]}), Eigen::Vector3d(v[0], v[1], 0)};
   }
   void is_planar(bool planar) {
     if (known_ && planar != planar_) refuse("SE2 and SE3 stand in one file: keep to one of them");

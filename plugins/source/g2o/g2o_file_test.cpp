@@ -121,6 +121,16 @@ TEST_F(G2oFile, IsRefusedWithItsLineWhenALineIsDamaged) {
   EXPECT_THAT(refusal("VERTEX_SE2 -1 0 0 0\n"),
               HasSubstr("'-1' after VERTEX_SE2 is no vertex number"));
   EXPECT_THAT(refusal("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n"), HasSubstr("norm 0"));
+  for (const char* heading : {"1e308", "-1e307", "1.1e6"})
+    EXPECT_THAT(refusal(std::string("VERTEX_SE2 0 0 0 ") + heading + "\n"),
+                HasSubstr(":1: the heading is no angle"));
+  EXPECT_THAT(refusal("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nEDGE_SE2 0 1 0 0 1e9 1 0 0 1 0 1\n"),
+              HasSubstr(":3: the heading is no angle"));
+  EXPECT_THAT(
+      refusal("VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nEDGE_SE2 0 1 0 0 0 1 0 0 1 0 1e308\n"),
+      HasSubstr(":3: the information is too large"));
+  EXPECT_THAT(refusal("VERTEX_SE3:QUAT 0 0 0 0 1e308 1e308 1e308 1e308\n"),
+              HasSubstr("the quaternion is too large"));
   EXPECT_THAT(refusal("VERTEX_XY 0 0 0\n"), HasSubstr("unknown word 'VERTEX_XY'"));
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n"),
               HasSubstr(":2: SE2 and SE3 stand in one file"));

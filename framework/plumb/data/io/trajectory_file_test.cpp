@@ -103,6 +103,8 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
   };
   const std::string first = "1 0 0 0 0 0 0 1\n";
   EXPECT_THAT(said(first + "2 0 0 0 0 0 0 0\n"), AllOf(HasSubstr(":2:"), HasSubstr("norm 0")));
+  EXPECT_THAT(said(first + "2 0 0 0 1e308 1e308 1e308 1e308\n"),
+              AllOf(HasSubstr(":2:"), HasSubstr("the quaternion is too large")));
   EXPECT_THAT(said(first + "0.5 0 0 0 0 0 0 1\n"), AllOf(HasSubstr(":2:"), HasSubstr("not later")));
   EXPECT_THAT(said(first + first), HasSubstr("not later"));
   EXPECT_THAT(said(first + "2 1 1e300 0 0 0 0 1\n"),

@@ -36,6 +36,8 @@ Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
       refuse(file, lines.number(),
              "the quaternion has norm 0, so it is no rotation: correct the line (no rotation is 0 "
              "0 0 1)");
+    if (!std::isfinite(norm))
+      refuse(file, lines.number(), "the quaternion is too large: its norm is 1; correct the line");
     q.coeffs() /= norm;
     for (std::size_t k = 1; k < 4; ++k)
       if (std::abs(v[k]) > farthest)

@@ -94,7 +94,9 @@ TEST(Admission, CallsWaitUntilThereIsRoomAndABigOneRunsAlone) {
     for (int k = 0; k < 200; ++k) {
       const Admission::Ticket ticket(admission, bytes);
       const int now = ++inside;
-      if (alone) EXPECT_EQ(now, 1);
+      if (alone) {
+        EXPECT_EQ(now, 1);
+      }
       int before = most;
       while (now > before && !most.compare_exchange_weak(before, now)) {
       }

@@ -6,6 +6,7 @@
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/engine/run/step_run.hpp"
 #include "plumb/store/index.hpp"
 
 namespace plumb {

@@ -6,6 +6,7 @@
 
 #include "plumb/data/io/fence.hpp"
 #include "plumb/pipeline/check/checks.hpp"
+#include "plumb/pipeline/check/given_paths.hpp"
 
 namespace plumb::pipeline {
 namespace {

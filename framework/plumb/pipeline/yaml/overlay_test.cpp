@@ -202,9 +202,9 @@ TEST_F(Overlays, NameWhatCannotStandUnderAlsoWhicheverPipelineTheyAreLaidOver) {
   folder_.write("other.yaml", cascade);
   folder_.write("presets/p.yaml", serving_both("{ste: {voxel: 2 m}}"));
   folder_.write("presets/q.yaml", serving_both("voxel"));
-  const auto alone = [&](const char* preset) -> std::string {
+  const auto alone = [&](const char* name) -> std::string {
     try {
-      read_pipeline(folder_.path() / preset, {{}, {"input=data"}, false}, test::registry());
+      read_pipeline(folder_.path() / name, {{}, {"input=data"}, false}, test::registry());
     } catch (const PipelineError& error) {
       return error.what();
     }
@@ -254,10 +254,10 @@ TEST_F(Overlays, OfAChainOfPresetsAreAllLaidOverByWhatEachNamesUnderAlso) {
 }
 
 TEST_F(Overlays, AreFoundByTheirNameBesideThePipeline) {
-  const auto preset =
+  const auto car =
       folder_.write("presets/car.yaml", "plumb: 1\nextends: ../cascade.yaml\nset: {voxel: 1 m}\n");
   for (const char* name : {"car", "cra", "car.yaml", "else/car.yaml"})
-    EXPECT_THAT(told({}, {name}), HasSubstr("Did you mean '" + preset.string() + "'?"));
+    EXPECT_THAT(told({}, {name}), HasSubstr("Did you mean '" + car.string() + "'?"));
 }
 
 TEST_F(Overlays, ShowThePassesAsATable) {
