@@ -19,8 +19,8 @@ namespace plumb {
 Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
                    const Registry& registry);
 
-/// The same as read_pipeline of a text that stands for itself: a plan's `resolved`. `name` is what places are said
-/// to be in. Paths must be absolute, and lead somewhere.
+/// The same as read_pipeline of a text that stands for itself: a plan's `resolved`. `name` is what
+/// places are said to be in. Paths must be absolute, and lead somewhere.
 Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry);
 
 }  // namespace plumb
