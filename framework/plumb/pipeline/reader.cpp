@@ -11,16 +11,22 @@ using namespace pipeline;
 
 namespace {
 
-Plan plan_of(Node tree, std::vector<std::string> files, const Overlay& overlay,
-             const Registry& registry, Diagnostics& diagnostics) {
-  Draft draft{registry, diagnostics, std::move(tree), overlay.open, {}, {}, {}, {}, {}, false};
-  draft.plan.files = std::move(files);
+/// `judged`: the text was made of a pipeline that was checked, so that what nothing uses was left
+/// so on purpose.
+Plan plan_of(Loaded loaded, const Overlay& overlay, bool judged, const Registry& registry,
+             Diagnostics& diagnostics) {
+  Draft draft{.registry = registry,
+              .diagnostics = diagnostics,
+              .tree = std::move(loaded.tree),
+              .referenced = std::move(loaded.referenced),
+              .open = overlay.open};
+  draft.plan.files = std::move(loaded.files);
   read_settings(draft);
   read_steps(draft);
   read_parameters(draft);
   read_wires(draft);
   read_conditions(draft);
-  find_unused(draft);
+  if (!judged) find_unused(draft);
   if (overlay.untrusted)
     find_foreign_paths(draft);
   else if (overlay.needs_files)
@@ -38,10 +44,9 @@ Plan plan_of(Node tree, std::vector<std::string> files, const Overlay& overlay,
 Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
                    const Registry& registry) {
   Diagnostics diagnostics;
-  std::vector<std::string> files;
-  auto tree = load_pipeline(file, overlay, diagnostics, files);
-  if (!tree) diagnostics.raise();
-  return plan_of(std::move(*tree), std::move(files), overlay, registry, diagnostics);
+  auto loaded = load_pipeline(file, overlay, diagnostics);
+  if (!loaded) diagnostics.raise();
+  return plan_of(std::move(*loaded), overlay, false, registry, diagnostics);
 }
 
 Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry) {
@@ -50,7 +55,7 @@ Plan read_resolved(const std::string& text, const std::string& name, const Regis
   if (!tree) diagnostics.raise();
   Overlay overlay;
   overlay.needs_files = true;
-  return plan_of(std::move(*tree), {name}, overlay, registry, diagnostics);
+  return plan_of({std::move(*tree), {name}, {}}, overlay, true, registry, diagnostics);
 }
 
 }  // namespace plumb

@@ -81,12 +81,13 @@ struct Draft {
   const Registry& registry;
   Diagnostics& diagnostics;
   Node tree;
+  std::set<std::string> referenced = {};  ///< Loaded::referenced
   bool open = false;
-  Plan plan;
-  std::vector<Scope> scopes;
-  std::vector<DraftStep> steps;      ///< as plan.steps
-  std::vector<DraftRepeat> repeats;  ///< as plan.repeats
-  std::map<std::string, Setting> settings;
+  Plan plan = {};
+  std::vector<Scope> scopes = {};
+  std::vector<DraftStep> steps = {};      ///< as plan.steps
+  std::vector<DraftRepeat> repeats = {};  ///< as plan.repeats
+  std::map<std::string, Setting> settings = {};
   bool dangling =
       false;  ///< something that was written leads nowhere: what it meant only looks unused
 

@@ -51,7 +51,7 @@ struct PlannedItem {
 
 struct PlannedRow {
   std::string name;
-  std::vector<ParameterValue> values;  ///< one a pass, or one for all
+  std::vector<ParameterValue> values;  ///< one a pass, or one for all; none when nothing uses it
   ParameterKind kind = ParameterKind::number;
   Quantity quantity = Quantity::none;
   Origin origin;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/fence.hpp"
@@ -6,6 +7,7 @@
 #include "plumb/data/io/regular_file.hpp"
 #include "plumb/pipeline/yaml/foreign_file.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
 
 namespace plumb::pipeline {
 namespace fs = std::filesystem;
@@ -121,10 +123,45 @@ const Node* also_for(const Chain::Link& link, const std::vector<fs::path>& done)
   return nullptr;
 }
 
+/// Adds what the steps below `node` refer to; `rows` are those of the repeats around it, the inner
+/// ones last, each with its path.
+void collect_references(const Node& node, const std::string& path, std::vector<std::string> rows,
+                        std::set<std::string>& found) {
+  if (const Node* repeat = node.at("repeat"))
+    if (const Node* passes = repeat->at("passes"))
+      for (const std::string& row : passes->keys()) rows.push_back(path + "." + row);
+  const auto add = [&](const Node& value) {
+    const auto name = reference_in(value);
+    if (!name) return;
+    const auto row = std::find_if(rows.rbegin(), rows.rend(), [&](const std::string& each) {
+      return each.substr(each.rfind('.') + 1) == *name;
+    });
+    found.insert(row == rows.rend() ? *name : *row);
+  };
+  const std::function<void(const Node&)> visit = [&](const Node& value) {
+    add(value);
+    for (const Node& item : value.items) visit(item);
+    for (const Entry& entry : value.entries) visit(entry.value);
+  };
+  for (const Entry& entry : node.entries) {
+    if (entry.key != "steps") {
+      visit(entry.value);
+    } else {
+      for (const Entry& step : entry.value.entries)
+        collect_references(step.value, path.empty() ? step.key : path + "." + step.key, rows,
+                           found);
+    }
+  }
+}
+
+void collect_references(Loaded& loaded) {
+  collect_references(loaded.tree, "", {}, loaded.referenced);
+}
+
 /// Lays over what of a preset's chain is not there yet.
-void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
-           std::vector<fs::path>& done_also, std::vector<std::string>& files,
-           Diagnostics& diagnostics) {
+void stack(const fs::path& preset, Loaded& loaded, std::vector<fs::path>& done,
+           std::vector<fs::path>& done_also, Diagnostics& diagnostics) {
+  std::vector<std::string>& files = loaded.files;
   const Chain chain = read_chain(preset, files.front(), diagnostics);
   if (chain.links.empty()) return;
   const Origin origin{chain.links.back().file, 1, 1};
@@ -141,7 +178,8 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
         any = true;
         if (applied(done_also, link.canonical)) continue;
         done_also.push_back(link.canonical);
-        apply_also(pipeline, *edits, diagnostics);
+        collect_references(loaded);
+        apply_also(loaded.tree, *edits, diagnostics);
         files.push_back(link.file);
       }
     if (any) return;
@@ -153,7 +191,8 @@ void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
   }
   for (const auto& link : chain.links) {
     if (applied(done, link.canonical)) continue;
-    apply_overlay(pipeline, link.tree, diagnostics);
+    collect_references(loaded);
+    apply_overlay(loaded.tree, link.tree, diagnostics);
     done.push_back(link.canonical);
     files.push_back(link.file);
   }
@@ -169,30 +208,34 @@ Chain read_chain(const fs::path& file, const fs::path& pipeline, Diagnostics& di
   return chain;
 }
 
-std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay,
-                                  Diagnostics& diagnostics, std::vector<std::string>& files) {
+std::optional<Loaded> load_pipeline(const fs::path& file, const Overlay& overlay,
+                                    Diagnostics& diagnostics) {
   Chain chain = read_chain(file, {}, diagnostics);
   if (chain.links.empty() || lone_overlay(chain.links.front().tree, diagnostics))
     return std::nullopt;
-  Node pipeline = chain.links.front().tree;
+  Loaded loaded{chain.links.front().tree, {}, {}};
   std::vector<fs::path> done;
   for (const auto& link : chain.links) {
-    if (!done.empty()) apply_overlay(pipeline, link.tree, diagnostics);
+    if (!done.empty()) {
+      collect_references(loaded);
+      apply_overlay(loaded.tree, link.tree, diagnostics);
+    }
     done.push_back(link.canonical);
-    files.push_back(link.file);
+    loaded.files.push_back(link.file);
   }
   std::vector<fs::path> done_also;
   for (const fs::path& preset : overlay.presets)
-    stack(preset, pipeline, done, done_also, files, diagnostics);
+    stack(preset, loaded, done, done_also, diagnostics);
+  collect_references(loaded);
   std::vector<std::string> seen;
   for (const std::string& option : overlay.sets) {
     const std::string key = option.substr(0, option.find('='));
     if (std::find(seen.begin(), seen.end(), key) != seen.end())
       diagnostics.add({"--set " + option, 0, 0}, "'" + key + "' is set twice on the command line.");
     seen.push_back(key);
-    apply_set(pipeline, option, diagnostics);
+    apply_set(loaded.tree, option, diagnostics);
   }
-  return pipeline;
+  return loaded;
 }
 
 }  // namespace plumb::pipeline

@@ -32,12 +32,43 @@ class Finder {
     return nullptr;
   }
 
+  /// Takes away a step, a group or a repeat; a parameter of the pipeline, a row of a repeat; or
+  /// what a step is given for a parameter, which then has its default.
+  void remove(const std::string& path) {
+    const auto parts = parts_of(path);
+    if (Node* parameters = pipeline_.at("parameters");
+        parts.size() == 1 && parameters && parameters->find(path))
+      return parameters->erase(path);
+    Node* steps = pipeline_.at("steps");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (!steps || !steps->is_map()) return void(lost(path, parts, k, {}));
+      Node* at = steps->at(parts[k]);
+      if (!at) {
+        auto known = steps->keys();
+        if (const Node* parameters = pipeline_.at("parameters"); parameters && k == 0)
+          for (const std::string& name : parameters->keys()) known.push_back(name);
+        return void(lost(path, parts, k, known));
+      }
+      if (k + 1 == parts.size()) return steps->erase(parts[k]);
+      const Node* repeat = at->at("repeat");
+      Node* values = repeat ? at->at("repeat")->at("passes") : at->at("with");
+      if (k + 2 == parts.size() && (repeat || at->at("use")) && values &&
+          values->find(parts.back()))
+        return values->erase(parts.back());
+      if (at->at("use"))
+        return diagnostics_.add(
+            origin_,
+            "'" + path + "' cannot be removed: the step is not given '" + parts.back() + "'.",
+            did_you_mean(parts.back(), values ? values->keys() : std::vector<std::string>()));
+      steps = at->at("steps");
+    }
+  }
+
   /// Puts a value at a parameter, a row or a step's parameter. Text of the command line is cut at
   /// commas for a row.
   void set(const std::string& path, Node value, bool cut) {
     const auto parts = parts_of(path);
     if (parts.size() == 1) return set_parameter(path, std::move(value));
-    std::vector<std::string> rows;  // of the repeats that are passed, each with its path
     Node* steps = pipeline_.at("steps");
     std::string walked;
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -49,11 +80,8 @@ class Finder {
       if (at->at("use") || (repeat && k + 2 == parts.size())) {
         if (k + 2 != parts.size()) return not_settable(path);
         return repeat ? set_row(*repeat, walked, parts.back(), std::move(value), cut)
-                      : set_step(*at, walked, parts.back(), rows, std::move(value));
+                      : set_step(*at, parts.back(), std::move(value));
       }
-      if (repeat && repeat->at("passes"))
-        for (const std::string& row : repeat->at("passes")->keys())
-          rows.push_back(walked + "." + row);
       steps = at->at("steps");
     }
     not_settable(path);
@@ -104,8 +132,7 @@ class Finder {
     diagnostics_.add(origin_, "the repeat '" + path + "' has no row '" + name + "'.",
                      did_you_mean(name, known));
   }
-  void set_step(Node& step, const std::string& path, const std::string& name,
-                const std::vector<std::string>& rows, Node value) {
+  void set_step(Node& step, const std::string& name, Node value) {
     Node* with = step.at("with");
     if (!with || !with->is_map()) {
       Node empty;
@@ -113,18 +140,6 @@ class Finder {
       empty.origin = origin_;
       step.put("with", origin_, empty);
       with = step.at("with");
-    }
-    if (const Node* old = with->at(name)) {
-      const auto reference = reference_in(*old);
-      for (auto row = rows.rbegin(); reference && row != rows.rend(); ++row) {
-        if (row->substr(row->rfind('.') + 1) != *reference) continue;
-        diagnostics_.add(origin_,
-                         "'" + path + "." + name + "' is driven by the row '" + *reference +
-                             "' of '" + row->substr(0, row->rfind('.')) + "', at " +
-                             old->origin.text() + ".",
-                         "Set the row instead: " + *row + ".");
-        return;
-      }
     }
     with->put(name, origin_, std::move(value));
   }
@@ -160,19 +175,18 @@ const Node* map_under(const Node& overlay, const char* key, Diagnostics& diagnos
   return nullptr;
 }
 
-void remove_steps(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
+void apply_remove(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) {
   const Node* paths = overlay.at("remove");
   if (!paths) return;
   if (!paths->is_list())
-    return diagnostics.add(paths->origin,
-                           "'remove' takes a list of steps, found " + paths->shown() + ".");
+    return diagnostics.add(paths->origin, "'remove' takes a list of steps and parameters, found " +
+                                              paths->shown() + ".");
   for (const Node& path : paths->items) {
-    if (!path.is_scalar()) {
-      diagnostics.add(path.origin, "'remove' takes names of steps, found " + path.shown() + ".");
-      continue;
-    }
-    Node* scope = Finder(pipeline, path.origin, diagnostics).scope(path.text, false);
-    if (scope) scope->erase(path.text.substr(path.text.rfind('.') + 1));
+    if (path.is_scalar())
+      Finder(pipeline, path.origin, diagnostics).remove(path.text);
+    else
+      diagnostics.add(path.origin,
+                      "'remove' takes names of steps and parameters, found " + path.shown() + ".");
   }
 }
 
@@ -207,7 +221,7 @@ void apply_edits(Node& pipeline, const Node& overlay, Diagnostics& diagnostics) 
   for (const char* key : {"plumb", "name", "about"})
     if (const Entry* entry = overlay.find(key)) pipeline.put(key, entry->origin, entry->value);
 
-  remove_steps(pipeline, overlay, diagnostics);
+  apply_remove(pipeline, overlay, diagnostics);
   if (const Node* steps = map_under(overlay, "replace", diagnostics))
     for (const Entry& entry : steps->entries)
       if (Node* scope = Finder(pipeline, entry.origin, diagnostics).scope(entry.key, false))

@@ -1,6 +1,8 @@
 #pragma once
 /// Presets and `--set`: edits of the pipeline's tree, made before anything in it is read.
 
+#include <set>
+
 #include "plumb/pipeline/yaml/overlay.hpp"
 #include "plumb/pipeline/yaml/tree.hpp"
 
@@ -22,10 +24,19 @@ struct Chain {
 Chain read_chain(const std::filesystem::path& file, const std::filesystem::path& pipeline,
                  Diagnostics& diagnostics);
 
-/// The pipeline as one tree: `file`, what it lays over what it extends, then presets and sets.
-/// `files` gets all names.
-std::optional<Node> load_pipeline(const std::filesystem::path& file, const Overlay& overlay,
-                                  Diagnostics& diagnostics, std::vector<std::string>& files);
+/// The pipeline as one tree.
+struct Loaded {
+  Node tree;
+  std::vector<std::string> files;  ///< that were read, the pipeline first
+  /// What some step referred to before the last overlay was applied: parameters ("voxel_size") and
+  /// rows ("coarse.gate"). An overlay may leave one of them without a use.
+  std::set<std::string> referenced;
+};
+
+/// `file`, what it lays over what it extends, then presets and sets. Empty when there is nothing to
+/// go on with; the diagnostic is written.
+std::optional<Loaded> load_pipeline(const std::filesystem::path& file, const Overlay& overlay,
+                                    Diagnostics& diagnostics);
 
 /// Applies `remove`, `replace`, `add` and `set` of an overlay's tree, in this order.
 void apply_overlay(Node& pipeline, const Node& overlay, Diagnostics& diagnostics);
