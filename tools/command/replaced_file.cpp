@@ -69,7 +69,7 @@ class Beside {
 
 void replace_file(const fs::path& file, const std::string& text, const fs::path& like) {
   std::error_code error;
-  fs::path place = fs::weakly_canonical(file, error);
+  fs::path place = fs::weakly_canonical(fs::absolute(file), error);
   if (error) place = fs::absolute(file);
   if (const std::string other = io::other_than_file(place); !other.empty())
     throw Error(file.string() + ": is " + other + "; name a file");
