@@ -18,7 +18,7 @@ struct StoreOption {
   std::string otherwise;  ///< what is meant when the command line says nothing; "" for what the
                           ///< environment says, or the user's cache folder
   std::string given = {}, former = {};  ///< by --cache-dir, and by --store, as it was called
-  bool trusted = false;            ///< also one that others own or may write
+  bool trusted = false;                 ///< also one that others own or may write
   bool refresh = false, no_cache = false;
 
   void add_to(CLI::App& command);        ///< --cache-dir and --trust-cache
