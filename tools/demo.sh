@@ -16,7 +16,7 @@ echo "1. A sequence: 200 scans of 32 x 1024 rays round a block of streets, and a
 echo
 echo "2. The recommended pipeline"
 "$plumb" run "$root/pipelines/plumb.yaml" \
-  --set input="$folder/street" --set truth="$folder/street/truth.tum" --store none -o "$folder/straight"
+  --set input="$folder/street" --set truth="$folder/street/truth.tum" --no-cache -o "$folder/straight"
 
 echo
 echo "3. Against the truth"

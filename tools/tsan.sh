@@ -28,7 +28,7 @@ told test_engine "$build/bin/test_engine" --gtest_filter=-Memory.SeesWhatAStepHe
 told test_store "$build/bin/test_store"
 told simulate_space "$plumb" simulate out_and_back --frames 24 --length 60m --lines 16 --columns 256 --drift 1 -o "$scratch/space"
 told simulate_plane "$plumb" simulate rooms --length 12m --speed 0.5m/s --rate 2Hz --columns 181 -o "$scratch/plane"
-options=(--threads 4 --store "$scratch/store")
+options=(--threads 4 --cache-dir "$scratch/store")
 told run_in_space "$plumb" run "$root/pipelines/plumb.yaml" --set input="$scratch/space" "${options[@]}" -o "$scratch/straight"
 told run_in_plane "$plumb" run "$root/pipelines/zhang2023.yaml" --set input="$scratch/plane/log.clf" "${options[@]}" -o "$scratch/map"
 

@@ -15,8 +15,8 @@ measured() {
     awk -v name="$name" '{printf "%-28s %.3f ms an item\n", name, $1 / 2}'
 }
 
-measured "without_store" --store none
-for k in 1 2 3; do measured "in_process_$k" --store "$folder/store_$k"; done
-measured "in_process_found_again" --store "$folder/store_3"
-for k in 1 2 3; do measured "workers_$k" --store "$folder/store_w$k" --isolate; done
-if command -v sbatch >/dev/null; then measured "slurm_4_chunks" --store "$folder/store_s" --executor slurm --executor-profile "$folder/profile.yaml"; fi
+measured "without_cache" --no-cache
+for k in 1 2 3; do measured "in_process_$k" --cache-dir "$folder/store_$k"; done
+measured "in_process_found_again" --cache-dir "$folder/store_3"
+for k in 1 2 3; do measured "workers_$k" --cache-dir "$folder/store_w$k" --executor process; done
+if command -v sbatch >/dev/null; then measured "slurm_4_chunks" --cache-dir "$folder/store_s" --executor slurm --executor-profile "$folder/profile.yaml"; fi

@@ -25,7 +25,7 @@ CAR = PIPELINES / "presets/car_64line.yaml"
 PLANAR = PIPELINES / "zhang2023.yaml"
 UNIMPROVED = PIPELINES / "presets/zhang2023_unimproved.yaml"
 
-os.environ["PLUMB_STORE"] = "none"  # nothing is kept beyond a case, and nothing is taken from the user's cache; a case that wants a store names one
+os.environ["PLUMB_CACHE_DIR"] = "none"  # nothing is kept beyond a case, and nothing is taken from the user's cache; a case that wants a cache names one
 
 DONE, WRONG_INPUT, WRONG_COMMAND_LINE, STEP_FAILED, UNSETTLED = 0, 1, 2, 3, 4  # as `plumb --help` says
 
@@ -49,7 +49,7 @@ class Said:
 def plumb(*arguments, code=DONE, program=None, environment=None, cwd=None):
     """Runs the command and asserts its exit code."""
     command = [str(a) for a in (program or PLUMB, *arguments)]
-    variables = {k: v for k, v in os.environ.items() if not k.startswith("PLUMB") or k == "PLUMB_STORE"} | (environment or {})
+    variables = {k: v for k, v in os.environ.items() if not k.startswith("PLUMB") or k == "PLUMB_CACHE_DIR"} | (environment or {})
     said = Said(command, subprocess.run(command, capture_output=True, text=True, env=variables, cwd=cwd, stdin=subprocess.DEVNULL))
     assert said.code == code, f"exit {code} was expected of\n{said}"
     return said

@@ -28,7 +28,7 @@ SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.
 KINDS = {
     "run": [Scenario("run", small()), Scenario("run over an earlier one", small(), earlier)],
     "compare": [Scenario("compare", compare), Scenario("compare again", compare, compared)],
-    "workers": [Scenario("workers", small("--isolate")), Scenario("workers over an earlier run", small("--isolate"), earlier)],
+    "workers": [Scenario("workers", small("--executor", "process")), Scenario("workers over an earlier run", small("--executor", "process"), earlier)],
     "prune": [Scenario("prune", prune, the_same, again=small())],
     "two runs": [Scenario("two runs", small()), Scenario("two runs over an earlier one", small(), earlier)],
 }

@@ -59,7 +59,7 @@ def surroundings(world, folders, tidy):
 
 def kept(said, world, expected):
     """Results that should be in the store and are not are a matter of a sentence."""
-    if said.code == 0 and len(blobs_in(world / "store")) < expected and "store: " not in said.err:
+    if said.code == 0 and len(blobs_in(world / "store")) < expected and "cache: " not in said.err:
         return ["results were not kept, and not a word of it"]
     return []
 

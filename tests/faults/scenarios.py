@@ -21,21 +21,21 @@ class Scenario:
 
 
 def small(*options, pipeline="small.yaml"):
-    return lambda work, world: ["run", work / pipeline, "--set", f"input={work / 'sequence'}", "--store", world / "store", "-o", world / "out",
+    return lambda work, world: ["run", work / pipeline, "--set", f"input={work / 'sequence'}", "--cache-dir", world / "store", "-o", world / "out",
                                 "--threads", 1, "--quiet", *options]
 
 
 def compare(work, world):
     return ["compare", work / "small.yaml", "--variant", f"coarse={work / 'coarse.yaml'}", "--input", work / "sequence", "--metric", "solved.*",
-            "--store", world / "store", "-o", world / "out", "--threads", 1, "--quiet"]
+            "--cache-dir", world / "store", "-o", world / "out", "--threads", 1, "--quiet"]
 
 
 def prune(work, world):
-    return ["cache", "prune", "--size", "0B", "--store", world / "store"]
+    return ["cache", "prune", "--size", "0B", "--cache-dir", world / "store"]
 
 
 def verify(work, world):
-    return ["cache", "verify", "--store", world / "store"]
+    return ["cache", "verify", "--cache-dir", world / "store"]
 
 
 def earlier(work, world):
@@ -55,7 +55,7 @@ ALL = [
     Scenario("fresh", small()),
     Scenario("over", small(), earlier),
     Scenario("same", small(), the_same),
-    Scenario("isolated", small("--isolate"), earlier),
+    Scenario("isolated", small("--executor", "process"), earlier),
     Scenario("compared", compare),
     Scenario("compared_again", compare, compared),
     Scenario("pruned", prune, the_same, again=small()),

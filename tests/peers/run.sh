@@ -122,7 +122,7 @@ while [[ $# -gt 0 ]]; do
     report "$name" "rbpf-slam, online" "$times" rbpf-slam-online.tum "$truth"
   fi
   if [[ -n "$plumb" ]] && wanted plumb; then
-    times="$(timed plumb.txt "$plumb" run "$root/pipelines/zhang2023.yaml" --set input="$log" --store none -o plumb)"
+    times="$(timed plumb.txt "$plumb" run "$root/pipelines/zhang2023.yaml" --set input="$log" --no-cache -o plumb)"
     report "$name" "plumb zhang2023" "$times" plumb/trajectory.tum "$truth"
   fi
 done

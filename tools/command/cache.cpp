@@ -1,4 +1,4 @@
-/// plumb cache: what the store holds, whether it is whole, and how it is kept small.
+/// plumb cache: what the cache holds, whether it is whole, and how it is kept small.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -35,11 +35,13 @@ std::string results(std::size_t n) { return std::to_string(n) + (n == 1 ? " resu
 /// The store that is meant; none, which is said, when there is none yet: looking for one does not
 /// make it.
 std::unique_ptr<Store> existing(const Options& options) {
+  options.store.require_one_meaning();
   const auto folder = options.store.folder();
   if (folder.empty())
-    throw Error(options.store.none() ? "--store none: there is nothing to look after; name a folder"
-                                     : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
-                                       "--store DIR which store is meant");
+    throw Error(options.store.none()
+                    ? "--cache-dir none: there is nothing to look after; name a folder"
+                    : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
+                      "--cache-dir DIR which cache is meant");
   if (std::filesystem::exists(folder)) return options.store.open(folder);
   std::cout << folder.string() << ": nothing is kept yet\n";
   return nullptr;
@@ -121,7 +123,7 @@ void add_cache(CLI::App& app) {
   command->require_subcommand(0, 1);
   command->footer(
       "Without a sub-command: number and size of the results by step. All of it is safe while runs "
-      "use the store; what is removed is made again.\n"
+      "use the cache; what is removed is made again.\n"
       "Example: plumb cache prune --older 30d --size 10GiB");
   auto* check = command->add_subcommand(
       "verify", "Checks every result and the index, and removes what is damaged");
@@ -133,7 +135,8 @@ void add_cache(CLI::App& app) {
                    "Removes until no more than this is left: 500MB, 10GiB");
   less->footer("Example: plumb cache prune --older 30d --size 10GiB");
   for (auto* sub : {check, less})
-    sub->fallthrough();  // --store and --trust-store behind the sub-command are the command's own
+    sub->fallthrough();  // --cache-dir and --trust-cache behind the sub-command are the command's
+                         // own
   check->callback([options] { verify_store(*options); });
   less->callback([options] { prune_store(*options); });
   command->callback([command, options] {

@@ -24,6 +24,7 @@ void add_check(CLI::App& app) {
     untrusted->before_reading(*options);
     const Registry steps = untrusted->steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    say_renamings(plan);
     untrusted->before_running(plan, steps, {});
     preflight(plan, steps);
     std::cout << passes_table(plan);
@@ -38,7 +39,9 @@ void add_resolve(CLI::App& app) {
   options->add_to(*command);
   command->callback([options] {
     const Registry steps = installed_steps();
-    std::cout << read_pipeline(options->file, options->overlay, steps).resolved;
+    const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    say_renamings(plan);
+    std::cout << plan.resolved;
   });
 }
 
@@ -54,6 +57,7 @@ void add_graph(CLI::App& app) {
   command->callback([options, format] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
+    say_renamings(plan);
     std::cout << (*format == "dot" ? dot_graph(plan) : mermaid_graph(plan));
   });
 }

@@ -20,6 +20,7 @@ void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_resolve(CLI::App& app);
 void add_graph(CLI::App& app);
+void add_migrate(CLI::App& app);
 void add_list(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_doctor(CLI::App& app);

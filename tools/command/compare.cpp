@@ -30,7 +30,7 @@ struct Options {
   ComparedFigures figures;
   unsigned threads = 0;
   bool quiet = false, json = false;
-  StoreOption store{"none"};
+  StoreOption store{.otherwise = "none"};
 };
 
 /// A pipeline with what is laid over it for one input, ready to run.
@@ -50,7 +50,7 @@ struct Variant {
 /// compared. One that cannot be read is told later.
 bool stands_alone(const fs::path& file, const fs::path& pipeline) {
   pipeline::Diagnostics ignored;
-  return pipeline::read_chain(file, pipeline, ignored).links.size() == 1;
+  return pipeline::read_chain(file, pipeline, {}, ignored).links.size() == 1;
 }
 
 std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
@@ -146,8 +146,10 @@ void require_good_names(const Options& options, const Plan& pipeline,
 }
 
 void compare(const Options& options) {
+  options.store.require_one_meaning();
   const Registry steps = installed_steps();
   const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
+  say_renamings(pipeline);
   const auto variants = variants_of(options, pipeline);
   const auto input_names = names_of(options.inputs);
   require_good_names(options, pipeline, input_names);
@@ -178,6 +180,7 @@ void compare(const Options& options) {
       }
       runs[v].push_back(
           {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
+      say_renamings(runs[v].back().plan);
     }
   }
   const ExitGuard while_loading;
@@ -281,10 +284,7 @@ void add_compare(CLI::App& app) {
                    "Threads to use; 0 for as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--store", options->store.given,
-                      "Folder in which results are kept, as for run; what is taken from there "
-                      "counts as no time, so that by itself compare uses none");
-  options->store.add_trust_to(*command);
+  options->store.add_to(*command);
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(
@@ -292,7 +292,8 @@ void add_compare(CLI::App& app) {
       "variant, with the 95 % confidence\n"
       "of the inputs' differences. Times are CPU seconds: of those steps, and of all.\n"
       "Exit 1 when anything is refused before the first run, 3 when a run fails; it is said "
-      "which.\n\n"
+      "which.\n"
+      "What is taken from a cache counts as no time, so that by itself compare uses none.\n\n"
       "  plumb compare pipelines/zhang2023.yaml --variant "
       "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2");
   command->callback([options] { compare(*options); });

@@ -24,15 +24,14 @@ std::uint64_t memory_of_machine() {
 }  // namespace
 
 void ExecutorOptions::add_to(CLI::App& command) {
-  command.add_flag(
-      "--isolate", isolate,
-      "Make all calls in worker processes: a module that crashes or hangs costs its item");
   command
-      .add_option(
-          "--executor", executor,
-          "Where calls are made: local, or slurm for the cluster whose machines share the store")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str();
+      .add_option("--executor", executor,
+                  "Where calls are made: local, in this process; process, in worker processes, so "
+                  "that a module that crashes or hangs costs its item; slurm, on the cluster whose "
+                  "machines share the cache")
+      ->check(CLI::IsMember({"local", "process", "slurm"}))
+      ->default_str("local");
+  command.add_flag("--isolate", isolate, "Former name of --executor process")->group("");
   command.add_option("--executor-profile", profile,
                      "Partition, time, memory, chunk and so on of the cluster's jobs (YAML)");
   command.add_option("--time-limit", time_limit,
@@ -42,10 +41,16 @@ void ExecutorOptions::add_to(CLI::App& command) {
       "What a worker may allocate, such as 4GiB; without it --memory, or the machine's");
 }
 
+void ExecutorOptions::require_one_meaning() const {
+  if (isolate && !executor.empty() && executor != "process")
+    throw Error("--isolate: is the former name of --executor process, and --executor " + executor +
+                " is given too; leave one of them out");
+}
+
 std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t memory,
                                                 bool verify_inputs, bool fresh,
                                                 const Store* store) const {
-  const bool slurm = executor == "slurm";
+  const bool slurm = where() == "slurm";
   if (!slurm && !profile.empty())
     throw Error("--executor-profile " + profile.string() +
                 ": is for --executor slurm, which is not given");
@@ -53,7 +58,7 @@ std::unique_ptr<Executor> ExecutorOptions::make(unsigned threads, std::uint64_t 
     for (const auto& [option, value] :
          {std::pair("--item-memory ", item_memory), std::pair("--time-limit ", time_limit)})
       if (!value.empty())
-        throw Error(option + value + ": is for workers; give --isolate or --executor slurm too");
+        throw Error(option + value + ": is for workers; give --executor process or slurm too");
     return nullptr;
   }
   WorkerCommand worker;

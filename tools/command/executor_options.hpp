@@ -1,5 +1,5 @@
 #pragma once
-/// Where calls are made: `--isolate`, `--executor slurm` and what belongs to them.
+/// Where calls are made: `--executor` and what belongs to it.
 
 #include <filesystem>
 #include <memory>
@@ -15,12 +15,16 @@ class App;
 namespace plumb::command {
 
 struct ExecutorOptions {
-  bool isolate = false;
-  std::string executor = "local", time_limit, item_memory;
+  bool isolate = false;  ///< by the former name of --executor process
+  std::string executor, time_limit, item_memory;
   std::filesystem::path profile;
 
   void add_to(CLI::App& command);
-  bool needs_store() const { return isolate || executor == "slurm"; }
+  /// Throws Error for --isolate beside another executor.
+  void require_one_meaning() const;
+  /// "local", "process" or "slurm".
+  std::string where() const { return isolate ? "process" : executor.empty() ? "local" : executor; }
+  bool needs_store() const { return where() != "local"; }
   /// None when calls are made in this process. `memory`: the run's bound [bytes], 0 for none.
   /// Throws Error, also for options that do not go together.
   std::unique_ptr<Executor> make(unsigned threads, std::uint64_t memory, bool verify_inputs,

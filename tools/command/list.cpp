@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
+#include "plumb/pipeline/yaml/former_names.hpp"
 #include "plumb/plugin/manifest.hpp"
 
 namespace plumb::command {
@@ -94,9 +95,13 @@ void add_inspect(CLI::App& app) {
     if (!step) {
       std::vector<std::string> names;
       for (const StepDescription* known : steps.all()) names.push_back(known->name);
+      const auto now = shipped_former_names().steps.find(*name);
       const std::string close = pipeline::nearest(*name, names);
       throw Error("there is no step '" + *name + "'." +
-                  (close.empty() ? "" : " Did you mean '" + close + "'?") +
+                  (now != shipped_former_names().steps.end()
+                       ? " It is called '" + now->second + "' now."
+                   : close.empty() ? ""
+                                   : " Did you mean '" + close + "'?") +
                   " `plumb list` shows all.");
     }
     if (*as_json)

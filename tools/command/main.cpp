@@ -104,6 +104,7 @@ int main(int argc, char** argv) {
   plumb::command::add_check(app);
   plumb::command::add_resolve(app);
   plumb::command::add_graph(app);
+  plumb::command::add_migrate(app);
   plumb::command::add_list(app);
   plumb::command::add_inspect(app);
   plumb::command::add_doctor(app);

@@ -27,4 +27,7 @@ struct PipelineOptions {
   }
 };
 
+/// One line on standard error for each place that is written by names of an earlier release.
+void say_renamings(const Plan& plan);
+
 }  // namespace plumb::command

@@ -31,7 +31,7 @@ struct Options {
   Untrusted untrusted;
   std::string memory;
   unsigned threads = 0;
-  bool quiet = false, times = true, fresh = false, verify_inputs = false, explain = false;
+  bool quiet = false, times = true, verify_inputs = false, explain = false;
 };
 
 /// What runs, and the record of it.
@@ -89,7 +89,7 @@ void say_of_store(const Store& store, const RunResult& result, bool quiet) {
   if (quiet) return;
   std::size_t made = 0, reused = 0;
   for (const StepTime& time : result.times) made += time.items, reused += time.remembered;
-  std::cerr << "store: " << reused << " results reused, " << made << " made\n";
+  std::cerr << "cache: " << reused << " results reused, " << made << " made\n";
 }
 
 constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
@@ -103,7 +103,7 @@ std::uint64_t memory_of_text(const std::string& text) {
 }
 
 /// An empty value is a mistake of a script: taken as none it would run without its bound, or into
-/// the user's store.
+/// the user's cache.
 void require_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
@@ -111,19 +111,22 @@ void require_values(const CLI::App& command) {
         throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
 }
 
-/// What leaves memory, and what workers make, goes through the store.
+/// What leaves memory, and what workers make, goes through the cache.
 void require_store(const Options& options, const Store* store) {
   if (store) return;
-  const char* needs = options.executor.needs_store() ? "--isolate and --executor slurm"
+  const std::string executor = "--executor " + options.executor.where();
+  const char* needs = options.executor.needs_store() ? executor.c_str()
                       : !options.memory.empty()      ? "--memory"
                       : options.explain              ? "--explain"
                                                      : nullptr;
   if (needs)
-    throw Error(std::string("a store is needed for ") + needs +
-                ", but there is none; give --store DIR");
+    throw Error(std::string("a cache is needed for ") + needs +
+                ", but there is none; give --cache-dir DIR");
 }
 
 void run(Options& options) {
+  options.store.require_one_meaning();
+  options.executor.require_one_meaning();
   options.untrusted.before_reading(options.pipeline);
   if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
   const std::uint64_t memory = memory_of_text(options.memory);
@@ -132,6 +135,7 @@ void run(Options& options) {
       options.locked.empty()
           ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}}
           : locked(options, steps);
+  if (options.locked.empty()) say_renamings(plan);  // a record is never rewritten
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   const ExitGuard while_loading;
   preflight(plan, steps);
@@ -145,7 +149,7 @@ void run(Options& options) {
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
   const auto executor = options.executor.make(options.threads, memory, options.verify_inputs,
-                                              options.fresh, store.get());
+                                              options.store.refresh, store.get());
   if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
   OutputFolder folder(options.output);
   for (const SideFile& file : side_files)
@@ -157,7 +161,7 @@ void run(Options& options) {
     Observers all = listeners.all();
     RunOptions run_options;
     run_options.threads = options.threads;
-    run_options.store = store.get(), run_options.fresh = options.fresh;
+    run_options.store = store.get(), run_options.fresh = options.store.refresh;
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
     unsettled = folder.fill(std::move(record), result);
@@ -197,13 +201,13 @@ void add_run(CLI::App& app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   options->store.add_to(*command);
-  command->add_flag("--fresh", options->fresh, "Take nothing from the store; keep what is made");
+  options->store.add_usage_to(*command);
   command->add_flag("--explain", options->explain,
                     "Say of each step whether its results were reused, and the first thing that "
                     "differs from the last run");
   command->add_option(
       "--memory", options->memory,
-      "Bound of resident memory, such as 2GiB: what does not fit waits in the store");
+      "Bound of resident memory, such as 2GiB: what does not fit waits in the cache");
   options->executor.add_to(*command);
   options->untrusted.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Only warnings and errors");

@@ -53,11 +53,11 @@ void require_apart(const fs::path& store, const fs::path& output) {
   if (store.empty()) return;
   const auto results = place_of(store), folder = place_of(output);
   if (within(results, folder))
-    throw Error("--store " + store.string() +
+    throw Error("--cache-dir " + store.string() +
                 ": lies in the folder for the results, which holds what steps wrote alone; name a "
                 "folder beside it");
   if (within(folder, results))
-    throw Error("-o " + output.string() + ": lies in the store " + store.string() +
+    throw Error("-o " + output.string() + ": lies in the cache " + store.string() +
                 ", which holds its own files alone; give another folder");
 }
 

@@ -22,23 +22,55 @@ fs::path user_cache_folder() {
 }
 
 void StoreOption::add_to(CLI::App& command) {
-  command
-      .add_option("--store", given,
-                  "Folder in which results are kept, and from which a later run takes what did not "
-                  "change; `none` keeps nothing. "
-                  "Without: the user's cache folder, ~/.cache/plumb")
-      ->envname("PLUMB_STORE");
-  add_trust_to(command);
+  const bool asks_environment = otherwise.empty();
+  command.add_option("--cache-dir", given,
+                     std::string("Folder in which results are kept, and from which a later run "
+                                 "takes what did not change; `none` keeps nothing. ") +
+                         (asks_environment ? "Without: PLUMB_CACHE_DIR, or the user's cache "
+                                             "folder, ~/.cache/plumb"
+                                           : "Without: " + otherwise));
+  command.add_option("--store", former, "Former name of --cache-dir")->group("");
+  command.add_flag("--trust-cache", trusted,
+                   "Use the cache even where others own it or may write it: whoever can, decides "
+                   "over the results");
+  command.add_flag("--trust-store", trusted, "Former name of --trust-cache")->group("");
 }
 
-void StoreOption::add_trust_to(CLI::App& command) {
-  command.add_flag("--trust-store", trusted,
-                   "Use the store even where others own it or may write it: whoever can, decides "
-                   "over the results");
+void StoreOption::add_usage_to(CLI::App& command) {
+  command.add_flag("--refresh", refresh, "Make all results anew, and keep them in the cache");
+  command.add_flag("--fresh", refresh, "Former name of --refresh")->group("");
+  command.add_flag("--no-cache", no_cache, "Take nothing from the cache and keep nothing in it");
+}
+
+void StoreOption::require_one_meaning() const {
+  if (!given.empty() && !former.empty())
+    throw Error("--store " + former +
+                ": is the former name of --cache-dir, which is given too; leave it out");
+  const std::string& folder = given.empty() ? former : given;
+  if (no_cache && refresh)
+    throw Error(
+        "--no-cache: keeps nothing, and --refresh makes all anew to keep it; leave one of them "
+        "out");
+  if (no_cache && !folder.empty() && folder != "none")
+    throw Error("--cache-dir " + folder + ": is not used with --no-cache; leave one of them out");
+  if (refresh && folder == "none")
+    throw Error(
+        "--refresh: makes all anew to keep it, and --cache-dir none keeps nothing; leave one of "
+        "them out");
+}
+
+std::string StoreOption::meant() const {
+  if (no_cache) return "none";
+  for (const std::string& said : {given, former, otherwise})
+    if (!said.empty()) return said;
+  for (const char* name : {"PLUMB_CACHE_DIR", "PLUMB_STORE"})
+    if (const char* value = std::getenv(name); value && *value) return value;
+  return "";
 }
 
 fs::path StoreOption::folder() const {
-  return none() ? fs::path() : given.empty() ? user_cache_folder() : fs::path(given);
+  const std::string said = meant();
+  return said == "none" ? fs::path() : said.empty() ? user_cache_folder() : fs::path(said);
 }
 
 std::unique_ptr<Store> StoreOption::open(const fs::path& at) const {
@@ -47,10 +79,10 @@ std::unique_ptr<Store> StoreOption::open(const fs::path& at) const {
 
 std::unique_ptr<Store> StoreOption::open() const {
   if (none()) return nullptr;
-  if (!given.empty()) return open(given);
+  if (!meant().empty()) return open(folder());
   const auto go_without = [](const std::string& why) {
-    std::cerr << "store: nothing is kept, " << why
-              << "; say where by --store DIR, or --store none\n";
+    std::cerr << "cache: nothing is kept, " << why
+              << "; say where by --cache-dir DIR, or say --no-cache\n";
     return nullptr;
   };
   if (folder().empty()) return go_without("for neither XDG_CACHE_HOME nor HOME names a folder");
@@ -63,19 +95,19 @@ std::unique_ptr<Store> StoreOption::open() const {
 
 void say_faults(const Store& store) {
   if (store.damaged())
-    std::cerr << "store: " << store.damaged() << " damaged result"
+    std::cerr << "cache: " << store.damaged() << " damaged result"
               << (store.damaged() == 1 ? " was" : "s were") << " removed and made again ("
               << (store.damaged() == 1 ? "" : "the first: ") << store.damage() << ")\n";
   if (const std::string why = store.index_rebuilt(); !why.empty())
-    std::cerr << "store: its index was damaged (" << why
+    std::cerr << "cache: its index was damaged (" << why
               << ") and has been made anew from the results\n";
   if (const std::string fault = store.fault(); !fault.empty())
-    std::cerr << "store: from some result on nothing was kept in " << store.folder().string()
+    std::cerr << "cache: from some result on nothing was kept in " << store.folder().string()
               << " (" << fault
               << "); the run and what is kept already are whole; make room (plumb cache prune), or "
-                 "name another folder with --store\n";
+                 "name another folder with --cache-dir\n";
   else if (const std::string index = store.index_fault(); !index.empty())
-    std::cerr << "store: its index is not used (" << index
+    std::cerr << "cache: its index is not used (" << index
               << "); results are kept and found without it\n";
 }
 

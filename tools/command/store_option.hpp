@@ -1,5 +1,6 @@
 #pragma once
-/// Where results are kept: `--store DIR`, else PLUMB_STORE, else the user's cache folder.
+/// The cache, where results are kept on disk: `--cache-dir DIR`, else PLUMB_CACHE_DIR, else the
+/// user's cache folder; and how it is used.
 
 #include <filesystem>
 #include <memory>
@@ -14,12 +15,18 @@ class App;
 namespace plumb::command {
 
 struct StoreOption {
-  std::string given;     ///< a folder, "none", or "" for the user's cache folder
-  bool trusted = false;  ///< also one that others own or may write
+  std::string otherwise;  ///< what is meant when the command line says nothing; "" for what the
+                          ///< environment says, or the user's cache folder
+  std::string given = {}, former = {};  ///< by --cache-dir, and by --store, as it was called
+  bool trusted = false;                 ///< also one that others own or may write
+  bool refresh = false, no_cache = false;
 
-  void add_to(CLI::App& command);
-  void add_trust_to(CLI::App& command);  ///< --trust-store alone
-  bool none() const { return given == "none"; }
+  void add_to(CLI::App& command);        ///< --cache-dir and --trust-cache
+  void add_usage_to(CLI::App& command);  ///< --refresh and --no-cache
+  /// Throws Error for options that do not go together.
+  void require_one_meaning() const;
+
+  bool none() const { return meant() == "none"; }
   /// The folder that is meant; empty for none, and where the user has no cache folder.
   std::filesystem::path folder() const;
   /// Opens it. None for `none`; and, with a note on standard error, where the user's cache folder
@@ -27,6 +34,9 @@ struct StoreOption {
   std::unique_ptr<Store> open() const;
   /// Opens this one. Throws Error.
   std::unique_ptr<Store> open(const std::filesystem::path& folder) const;
+
+ private:
+  std::string meant() const;  ///< a folder, "none", or "" for the user's cache folder
 };
 
 /// $XDG_CACHE_HOME/plumb or ~/.cache/plumb; empty where neither is known.

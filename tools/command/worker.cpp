@@ -32,8 +32,8 @@ bool is_connected(const Options& options) {
 void run(Options& options) {
   if (options.task.empty() && !is_connected(options))
     throw Error(
-        "worker: is started by 'plumb run --isolate' and by Slurm jobs of 'plumb run --executor "
-        "slurm', not by hand");
+        "worker: is started by 'plumb run --executor process' and by Slurm jobs of 'plumb run "
+        "--executor slurm', not by hand");
   Store store(options.worker.store, StoreRole::worker,
               options.worker.trusted ? Whose::anyones : Whose::own);
   if (!options.task.empty()) {
@@ -61,10 +61,11 @@ void run_or_refuse(Options& options) {
 
 void add_worker(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "worker", "Makes calls for a run: started by run --isolate and by Slurm jobs");
+      "worker", "Makes calls for a run: started by run --executor process and by Slurm jobs");
   auto options = std::make_shared<Options>();
-  command->add_option("--store", options->worker.store, "Folder of the run's results")->required();
-  command->add_flag("--trust-store", options->worker.trusted, "The store may be anyone's");
+  command->add_option("--cache-dir", options->worker.store, "Folder of the run's results")
+      ->required();
+  command->add_flag("--trust-cache", options->worker.trusted, "The cache may be anyone's");
   command->add_option("--memory", options->worker.memory,
                       "What the process may allocate [bytes]; 0 for no bound");
   command->add_flag("--contents", options->worker.contents, "Input files count by their content");
@@ -75,7 +76,7 @@ void add_worker(CLI::App& app) {
   command->add_option("--time-limit", options->time_limit, "Of one call [s]; 0 for none");
   command->add_option("--chunk", options->chunk, "Which chunk, from 0");
   command->footer(
-      "Example: none; it is not meant to be started by hand. `plumb run --help` has --isolate and "
+      "Example: none; it is not meant to be started by hand. `plumb run --help` has "
       "--executor.");
   command->callback([options] { run_or_refuse(*options); });
 }

@@ -9,9 +9,9 @@ std::vector<std::string> words_of(const WorkerCommand& worker) {
   for (const auto& folder : plugin_path)
     words.insert(words.end(), {"--plugin-path", std::filesystem::absolute(folder).string()});
   words.insert(words.end(),
-               {"worker", "--store", std::filesystem::absolute(worker.store).string()});
+               {"worker", "--cache-dir", std::filesystem::absolute(worker.store).string()});
   if (worker.memory > 0) words.insert(words.end(), {"--memory", std::to_string(worker.memory)});
-  if (worker.trusted) words.push_back("--trust-store");
+  if (worker.trusted) words.push_back("--trust-cache");
   if (worker.contents) words.push_back("--contents");
   return words;
 }

@@ -6,13 +6,12 @@
 namespace plumb {
 namespace {
 
-constexpr const char* pose_not_finite = "a pose with a number that is not finite";
+constexpr const char* non_finite_pose = "a pose with a non-finite number";
 constexpr const char* pose_not_rigid =
     "a pose whose rotation is none (its quaternion has not the length 1)";
-constexpr const char* point_not_finite = "a point with a coordinate that is not finite";
-constexpr const char* normal_not_finite = "a normal with a coordinate that is not finite";
-constexpr const char* information_not_finite =
-    "an information matrix with a number that is not finite";
+constexpr const char* non_finite_point = "a point with a non-finite coordinate";
+constexpr const char* non_finite_normal = "a normal with a non-finite coordinate";
+constexpr const char* non_finite_information = "an information matrix with a non-finite number";
 constexpr const char* columns_unlike = "a cloud whose columns are not equally long";
 
 bool is_finite(double number) { return std::isfinite(number); }
@@ -37,7 +36,7 @@ const char* fault_of_all(const std::vector<T>& values, const char* (*fault_of)(c
 }
 
 const char* fault_of_pose(const Pose& pose) {
-  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) return pose_not_finite;
+  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) return non_finite_pose;
   constexpr double rounding = 1e-3;
   return std::abs(pose.rotation.squaredNorm() - 1) < rounding ? "" : pose_not_rigid;
 }
@@ -71,19 +70,19 @@ bool holds(const Box& box, const Cloud& cloud) {
 const char* fault_of_edge(const Edge& edge) {
   if (edge.kind > EdgeKind::loop) return "an edge of a kind that there is not";
   if (!is_finite(edge.score) || !is_finite(edge.centroid_distance))
-    return "an edge with a number that is not finite";
+    return "an edge with a non-finite number";
   return "";
 }
 const char* fault_of_relative(const RelativePose& relation) {
-  return relation.information.allFinite() ? fault_of_pose(relation.T_i_j) : information_not_finite;
+  return relation.information.allFinite() ? fault_of_pose(relation.T_i_j) : non_finite_information;
 }
 const char* fault_of_absolute(const AbsolutePose& relation) {
   return relation.information.allFinite() ? fault_of_pose(relation.T_world_i)
-                                          : information_not_finite;
+                                          : non_finite_information;
 }
 const char* fault_of_point(const AbsolutePoint& relation) {
-  if (!relation.information.allFinite()) return information_not_finite;
-  return relation.p_i.allFinite() && relation.p_world.allFinite() ? "" : point_not_finite;
+  if (!relation.information.allFinite()) return non_finite_information;
+  return relation.p_i.allFinite() && relation.p_world.allFinite() ? "" : non_finite_point;
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ const char* fault_in(const Trajectory& trajectory) {
   if (!as_long(trajectory.T_world_frame, trajectory.stamps.size()))
     return "a trajectory of not as many stamps as poses";
   for (const double stamp : trajectory.stamps)
-    if (!is_finite(stamp)) return "a stamp that is not finite";
+    if (!is_finite(stamp)) return "a non-finite stamp";
   return fault_of_all(trajectory.T_world_frame, fault_of_pose);
 }
 
@@ -110,9 +109,9 @@ const char* fault_in(const Segment& segment) {
   const Cloud& cloud = segment.cloud;
   if (const char* fault = fault_in(segment.range); *fault) return fault;
   if (const char* fault = fault_of_columns(cloud); *fault) return fault;
-  if (!is_finite(cloud.x) || !is_finite(cloud.y) || !is_finite(cloud.z)) return point_not_finite;
+  if (!is_finite(cloud.x) || !is_finite(cloud.y) || !is_finite(cloud.z)) return non_finite_point;
   if (!is_finite(cloud.nx) || !is_finite(cloud.ny) || !is_finite(cloud.nz))
-    return normal_not_finite;
+    return non_finite_normal;
   if (!as_long(segment.frame, cloud.size()))
     return "a segment that does not name a frame for each point";
   for (const auto frame : segment.frame)
@@ -123,7 +122,7 @@ const char* fault_in(const Segment& segment) {
 }
 
 const char* fault_in(const Descriptor& descriptor) {
-  return is_finite(descriptor.values) ? "" : "a descriptor with a number that is not finite";
+  return is_finite(descriptor.values) ? "" : "a descriptor with a non-finite number";
 }
 
 const char* fault_in(const Features& features) {
@@ -132,9 +131,9 @@ const char* fault_in(const Features& features) {
   if (!vectors || !as_long_or_empty(features.normals, n) ||
       !as_long_or_empty(features.at_border, n))
     return "features whose columns are not equally long";
-  if (!is_finite(features.points)) return point_not_finite;
-  if (!is_finite(features.normals)) return normal_not_finite;
-  return is_finite(features.vectors) ? "" : "a feature with a number that is not finite";
+  if (!is_finite(features.points)) return non_finite_point;
+  if (!is_finite(features.normals)) return non_finite_normal;
+  return is_finite(features.vectors) ? "" : "a feature with a non-finite number";
 }
 
 const char* fault_in(const Edges& edges) {
@@ -157,14 +156,14 @@ const char* fault_in(const Matches& matches) {
   if (!as_long(matches.q, n) || !indices || !normals || !as_long_or_empty(matches.weight, n) ||
       !as_long_or_empty(matches.at_border, n))
     return "matches whose columns are not equally long";
-  if (!is_finite(matches.p) || !is_finite(matches.q)) return point_not_finite;
-  if (!is_finite(matches.normal_p) || !is_finite(matches.normal_q)) return normal_not_finite;
-  return is_finite(matches.weight) ? "" : "a weight that is not finite";
+  if (!is_finite(matches.p) || !is_finite(matches.q)) return non_finite_point;
+  if (!is_finite(matches.normal_p) || !is_finite(matches.normal_q)) return non_finite_normal;
+  return is_finite(matches.weight) ? "" : "a non-finite weight";
 }
 
 const char* fault_in(const Registration& registration) {
   return registration.information.allFinite() ? fault_of_pose(registration.T_i_j)
-                                              : information_not_finite;
+                                              : non_finite_information;
 }
 
 const char* fault_in(const Relations& relations) {
@@ -183,7 +182,7 @@ const char* fault_in(const GridMap& map) {
   if (!is_finite(map.resolution) || !map.origin.allFinite() ||
       (!map.log_odds.empty() && map.resolution <= 0))
     return "a grid without a place or a cell size";
-  return is_finite(map.log_odds) ? "" : "a cell with a number that is not finite";
+  return is_finite(map.log_odds) ? "" : "a cell with a non-finite number";
 }
 
 const char* fault_in(const Metrics& metrics) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What no value on a wire may hold: numbers that are not finite where a place or a direction is
+/// What no value on a wire may hold: non-finite numbers where a place or a direction is
 /// meant, columns of other lengths than the others, places that lie beyond what they point into.
 /// Asked of all that a step gives, so that the step that made it is named and not the one that
 /// stumbles over it, and of all that is read from a store, whose files anyone may have written.

@@ -48,9 +48,9 @@ TEST(Fault, PosesAreFiniteAndRigid) {
   Poses poses;
   poses.T_world_segment.resize(2);
   EXPECT_THAT(fault_after(poses, [](Poses& p) { p.T_world_segment[1].translation.x() = infinity; }),
-              HasSubstr("a number that is not finite"));
+              HasSubstr("a non-finite number"));
   EXPECT_THAT(fault_after(poses, [](Poses& p) { p.T_world_segment[0].rotation.w() = nan; }),
-              HasSubstr("not finite"));
+              HasSubstr("non-finite"));
   EXPECT_THAT(
       fault_after(poses, [](Poses& p) { p.T_world_segment[0].rotation.coeffs().setZero(); }),
       HasSubstr("rotation is none"));
@@ -64,10 +64,10 @@ TEST(Fault, TrajectoriesHaveAStampForEachPose) {
   EXPECT_THAT(fault_after(trajectory, [](Trajectory& t) { t.stamps.push_back(2); }),
               HasSubstr("as many stamps as poses"));
   EXPECT_THAT(fault_after(trajectory, [](Trajectory& t) { t.stamps[1] = infinity; }),
-              HasSubstr("stamp that is not finite"));
+              HasSubstr("non-finite stamp"));
   EXPECT_THAT(
       fault_after(trajectory, [](Trajectory& t) { t.T_world_frame[1].translation.y() = nan; }),
-      HasSubstr("not finite"));
+      HasSubstr("non-finite"));
 }
 
 TEST(Fault, RangesHaveAPoseForEachFrame) {
@@ -96,9 +96,9 @@ TEST(Fault, SegmentsNameFramesThatTheyHave) {
   EXPECT_THAT(fault_after(sound_segment(), [](Segment& s) { s.frame.pop_back(); }),
               HasSubstr("name a frame for each point"));
   EXPECT_THAT(fault_after(sound_segment(), [](Segment& s) { s.cloud.z[3] = nan; }),
-              HasSubstr("point with a coordinate that is not finite"));
+              HasSubstr("point with a non-finite coordinate"));
   EXPECT_THAT(fault_after(sound_segment(), [](Segment& s) { s.cloud.nx[3] = nan; }),
-              HasSubstr("normal with a coordinate that is not finite"));
+              HasSubstr("normal with a non-finite coordinate"));
   EXPECT_THAT(fault_after(sound_segment(), [](Segment& s) { s.box.high.x() = 1; }),
               HasSubstr("box or centroid"));
   EXPECT_THAT(fault_after(sound_segment(),
@@ -119,7 +119,7 @@ TEST(Fault, EdgesJoinSegmentsThatThereAreInOrder) {
   EXPECT_THAT(fault_after(edges, [](Edges& e) { e.list[1].j = 1; }), HasSubstr("each pair once"));
   EXPECT_THAT(fault_after(edges, [](Edges& e) { e.list[0].kind = static_cast<EdgeKind>(9); }),
               HasSubstr("kind that there is not"));
-  EXPECT_THAT(fault_after(edges, [](Edges& e) { e.list[0].score = nan; }), HasSubstr("not finite"));
+  EXPECT_THAT(fault_after(edges, [](Edges& e) { e.list[0].score = nan; }), HasSubstr("non-finite"));
 }
 
 TEST(Fault, MatchesAndFeaturesHaveColumnsOfOneLength) {

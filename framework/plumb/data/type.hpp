@@ -24,8 +24,8 @@ struct Type {
       InArchive& from);                     ///< throws Error when the bytes end too early
   std::size_t (*bytes)(const void* value);  ///< how much memory it holds, about, with the search
                                             ///< trees that may be built on it
-  const char* (*fault)(const void* value);  ///< "" or what no step may give: "a pose with a number
-                                            ///< that is not finite"
+  const char* (*fault)(const void* value);  ///< "" or what no step may give: "a pose with a
+                                            ///< non-finite number"
   std::shared_ptr<const void> (*empty)();   ///< a value without content: of Matches no pairs
 };
 

@@ -19,7 +19,7 @@ struct ComparedFigures {
 
 /// The numbers of one run that are compared, named "STEP.NUMBER": those chosen; then CPU time and
 /// iterations (where counted) of the timed steps; last `time`, CPU time of all steps. Numbers
-/// that are not finite are left out. Throws Error, if it `must_match`: a glob that no number
+/// that are non-finite are left out. Throws Error, if it `must_match`: a glob that no number
 /// matches.
 std::vector<Number> figures_of(const Plan& plan, const RunResult& result,
                                const ComparedFigures& chosen, bool must_match = true);

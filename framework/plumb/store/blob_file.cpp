@@ -75,7 +75,7 @@ void for_each_blob(const fs::path& store,
   std::error_code error;
   for (fs::directory_iterator part(store / "blobs", error), end; !error && part != end;
        part.increment(error)) {
-    std::error_code gone;  // a folder that is no folder, or went away
+    std::error_code gone;  // a folder that is not a directory, or went away
     if (part->is_symlink(gone)) continue;
     for (fs::directory_iterator file(part->path(), gone); !gone && file != end;
          file.increment(gone))

@@ -144,7 +144,7 @@ void Index::mend_while_open(const std::string& why) {
   database_.reset();
   if (!rebuilt().empty()) return fail("it was damaged again, " + why);
   if (!locked(lock_, LOCK_EX | LOCK_NB))
-    return fail("it is damaged, " + why + "; it is made anew when no other run uses the store");
+    return fail("it is damaged, " + why + "; it is made anew when no other run uses the cache");
   try {
     rebuild(why);
     if (!locked(lock_, LOCK_SH)) return fail(std::strerror(errno));

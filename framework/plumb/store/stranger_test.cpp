@@ -66,10 +66,10 @@ TEST_F(Stranger, MayWriteNoStoreThatIsTaken) {
   for (const mode_t mode : {0777, 0770, 0702, 01777}) {
     chmod(path.c_str(), mode);
     EXPECT_THAT(refused(), AllOf(HasSubstr("may be written by"), HasSubstr("chmod -R go-w"),
-                                 HasSubstr("--trust-store")))
+                                 HasSubstr("--trust-cache")))
         << mode;
     EXPECT_EQ(x_of(*Store(path, StoreRole::driver, Whose::anyones).find(key)), 5);
-    EXPECT_THAT(io::refusal([&] { Store(path, StoreRole::worker); }), HasSubstr("--trust-store"));
+    EXPECT_THAT(io::refusal([&] { Store(path, StoreRole::worker); }), HasSubstr("--trust-cache"));
   }
   chmod(path.c_str(), 0755);
   EXPECT_TRUE(Store(path).find(key));
@@ -102,7 +102,7 @@ TEST_F(Stranger, OwnsNoStoreThatIsTaken) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
   ASSERT_EQ(chown(path.c_str(), stranger, 0), 0);
   EXPECT_THAT(refused(),
-              AllOf(HasSubstr("belongs to user number 4000123"), HasSubstr("--trust-store")));
+              AllOf(HasSubstr("belongs to user number 4000123"), HasSubstr("--trust-cache")));
   EXPECT_EQ(x_of(*Store(path, StoreRole::driver, Whose::anyones).find(key)), 5);
 }
 
@@ -149,10 +149,10 @@ TEST_F(Stranger, PutALinkInThePlaceOfAFolder) {
   fs::remove(part);
   fs::rename(path / "new", elsewhere / "new");
   fs::create_symlink(elsewhere / "new", path / "new");
-  EXPECT_THAT(refused(), HasSubstr("its 'new' is no folder of its own"));
+  EXPECT_THAT(refused(), HasSubstr("its 'new' is not a directory of its own"));
   fs::remove(path / "new");
   fs::create_symlink(elsewhere, path / "jobs");
-  EXPECT_THAT(refused(), HasSubstr("its 'jobs' is no folder of its own"));
+  EXPECT_THAT(refused(), HasSubstr("its 'jobs' is not a directory of its own"));
 }
 
 TEST_F(Stranger, PutAPipeInThePlaceOfTheMark) {

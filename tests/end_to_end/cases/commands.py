@@ -6,7 +6,7 @@ import re
 from plumb_test import (BUILD, CAR, CASCADE, PLUMB, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence,
                         step_names)
 
-COMMANDS = ["run", "check", "resolve", "graph", "list", "inspect", "doctor", "schema", "simulate", "evaluate", "compare", "cache"]
+COMMANDS = ["run", "check", "resolve", "graph", "migrate", "list", "inspect", "doctor", "schema", "simulate", "evaluate", "compare", "cache"]
 INPUT = ["--set", "input=."]  # checking reads no data, but what it names must be there
 
 
@@ -17,9 +17,9 @@ def test_help_names_every_command_and_the_exit_codes(folder):
 
 def test_each_command_has_help_with_its_options(folder):
     expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
-                "graph": ["mermaid", "dot"], "inspect": ["--json"], "schema": ["--output"],
+                "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "inspect": ["--json"], "schema": ["--output"],
                 "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
-                "compare": ["--variant", "--input", "--metric", "--time", "--json", "--store"], "cache": ["verify", "prune", "--store", "Example"]}
+                "compare": ["--variant", "--input", "--metric", "--time", "--json", "--cache-dir"], "cache": ["verify", "prune", "--cache-dir", "Example"]}
     for command in COMMANDS:
         plumb(command, "--help").has("Usage: plumb " + command, *expected.get(command, []))
 

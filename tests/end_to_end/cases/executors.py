@@ -14,7 +14,7 @@ def words(folder, out, *options):
 
 
 def expected(folder):
-    plumb(*words(folder, "expected", "--store", "none"))
+    plumb(*words(folder, "expected", "--cache-dir", "none"))
     return files_of(folder / "expected")
 
 
@@ -28,30 +28,30 @@ def blobs(store):
 
 def test_workers_leave_the_same_bytes_and_counts(folder):
     bytes_ = expected(folder)
-    plain = plumb(*words(folder, "plain", "--store", "none"))
+    plain = plumb(*words(folder, "plain", "--cache-dir", "none"))
     for threads in ("1", "2"):
-        said = plumb(*words(folder, "out", "--store", folder / ("store" + threads), "--isolate", "--threads", threads))
+        said = plumb(*words(folder, "out", "--cache-dir", folder / ("store" + threads), "--executor", "process", "--threads", threads))
         assert files_of(folder / "out") == bytes_
         assert counted(said) == counted(plain)
     first = blobs(folder / "store2")
-    plumb(*words(folder, "out", "--store", folder / "store2"))
+    plumb(*words(folder, "out", "--cache-dir", folder / "store2"))
     assert files_of(folder / "out") == bytes_ and blobs(folder / "store2") == first
     assert not processes_with("worker", folder), "a worker outlived its run"
 
 
 def test_workers_end_when_their_driver_is_killed(folder):
-    command = [str(w) for w in (PLUMB, *words(folder, "out", "--store", folder / "store", "--isolate"))]
+    command = [str(w) for w in (PLUMB, *words(folder, "out", "--cache-dir", folder / "store", "--executor", "process"))]
     driver = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     wait_until(lambda: processes_with(" worker ", folder), why="a worker")
     driver.kill()
     driver.wait()
     wait_until(lambda: not processes_with(" worker ", folder), seconds=10, why="the end of the workers")
-    plumb(*words(folder, "out", "--store", folder / "store", "--isolate"))
+    plumb(*words(folder, "out", "--cache-dir", folder / "store", "--executor", "process"))
     assert files_of(folder / "out") == expected(folder)
 
 
 def test_workers_that_are_killed_are_replaced(folder):
-    command = [str(w) for w in (PLUMB, *words(folder, "out", "--store", folder / "store", "--isolate"))]
+    command = [str(w) for w in (PLUMB, *words(folder, "out", "--cache-dir", folder / "store", "--executor", "process"))]
     driver = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     killed = 0
     while driver.poll() is None and killed < 3:
@@ -65,7 +65,7 @@ def test_workers_that_are_killed_are_replaced(folder):
 
 def slurm_run(folder, slurm, out, store):
     (folder / "profile.yaml").write_text(PROFILE)
-    command = words(folder, out, "--store", folder / store, "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
+    command = words(folder, out, "--cache-dir", folder / store, "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
     return subprocess.Popen([str(w) for w in (PLUMB, *command)], env=slurm.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -111,7 +111,7 @@ def test_a_driver_of_slurm_that_is_killed_takes_up_where_it_was(folder):
 
 
 def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
-    good = words(folder, "out", "--store", folder / "store")
+    good = words(folder, "out", "--cache-dir", folder / "store")
     profile = folder / "profile.yaml"
 
     def told(text, *sentences, code=WRONG_INPUT):
@@ -124,21 +124,21 @@ def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
     told("memory: much\n", "profile.yaml:1:9:", "memory much", "4GiB")
     refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "none.yaml: cannot be opened (No such file or directory)")
     refused(plumb(*good, "--executor-profile", profile, code=WRONG_INPUT), "--executor slurm, which is not given")
-    refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--isolate")
-    refused(plumb(*good, "--isolate", "--item-memory", "10MiB", code=WRONG_INPUT), "--item-memory 10MiB", "64MiB or more")
-    refused(plumb(*good, "--isolate", "--memory", "256MiB", "--threads", "8", code=WRONG_INPUT), "--memory for 8 workers", "32 MiB")
-    refused(plumb(*words(folder, "out", "--store", "none", "--isolate"), code=WRONG_INPUT), "a store is needed")
-    refused(plumb(*words(folder, "out", "--store", "none", "--memory", "2GiB"), code=WRONG_INPUT), "a store is needed")
+    refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--executor", "process")
+    refused(plumb(*good, "--executor", "process", "--item-memory", "10MiB", code=WRONG_INPUT), "--item-memory 10MiB", "64MiB or more")
+    refused(plumb(*good, "--executor", "process", "--memory", "256MiB", "--threads", "8", code=WRONG_INPUT), "--memory for 8 workers", "32 MiB")
+    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--executor", "process"), code=WRONG_INPUT), "a cache is needed")
+    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--memory", "2GiB"), code=WRONG_INPUT), "a cache is needed")
     refused(plumb(*good, "--memory", "2 apples", code=WRONG_INPUT), "--memory", "GiB")
     refused(plumb(*good, "--memory", "1MiB", code=WRONG_INPUT), "too little")
-    refused(plumb("worker", "--store", folder / "s2", code=WRONG_INPUT), "not by hand")
+    refused(plumb("worker", "--cache-dir", folder / "s2", code=WRONG_INPUT), "not by hand")
     plumb(*good, "--executor", "condor", code=WRONG_COMMAND_LINE).has("condor")
     assert not (folder / "out").exists()
 
 
 def test_a_slurm_that_does_not_answer_or_lacks_the_partition_is_refused_before_anything_runs(folder):
     (folder / "profile.yaml").write_text("partition: nightly\n")
-    good = words(folder, "out", "--store", folder / "store", "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
+    good = words(folder, "out", "--cache-dir", folder / "store", "--executor", "slurm", "--executor-profile", folder / "profile.yaml")
     (folder / "slurm.conf").write_text(f"ClusterName=none\nSlurmctldHost=localhost(127.0.0.1)\nSlurmctldPort={free_port()}\nNodeName=localhost\n"
                                        "MessageTimeout=1\nPartitionName=main Nodes=ALL\n")
     refused(plumb(*good, code=WRONG_INPUT, environment={"SLURM_CONF": str(folder / "slurm.conf")}), "--executor slurm", "without --executor")
@@ -158,7 +158,7 @@ def test_a_call_that_crashes_on_the_cluster_is_set_aside_after_two_tries(folder)
         variables = {"SLURM_CONF": slurm.environment["SLURM_CONF"]}
         options = ["--executor", "slurm", "--executor-profile", folder / "profile.yaml"]
         said = plumb("--plugin-path", faults.MODULES, "run", faults.pipeline(folder, "drop"), "--set", f"input={sequence('street')}", "--set",
-                     "bad.deed=segfault", "--store", folder / "store", *options, "-o", folder / "out", environment=variables)
+                     "bad.deed=segfault", "--cache-dir", folder / "store", *options, "-o", folder / "out", environment=variables)
         said.has("edge 1-2: its process was ended by signal 11", "is dropped (on_error: drop)")
-    faults.run(folder, "here", "segfault", "--isolate", on_error="drop", store="other", code=0)
+    faults.run(folder, "here", "segfault", "--executor", "process", on_error="drop", store="other", code=0)
     assert files_of(folder / "out")["trajectory.tum"] == files_of(folder / "here")["trajectory.tum"]

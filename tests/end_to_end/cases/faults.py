@@ -33,12 +33,12 @@ def pipeline(folder, on_error=""):
 
 def run(folder, out, deed, *options, on_error="", where="bad", store="store", code=STEP_FAILED):
     return plumb("--plugin-path", MODULES, "run", pipeline(folder, on_error), "--set", f"input={sequence('street')}", "--set", f"{where}.deed={deed}",
-                 "--store", folder / store, *options, "-o", folder / out, code=code)
+                 "--cache-dir", folder / store, *options, "-o", folder / out, code=code)
 
 
 def kept(folder, step):
     """How many results of a step are in the store."""
-    line = next((line for line in plumb("cache", "--store", folder / "store").out.splitlines() if step in line), "")
+    line = next((line for line in plumb("cache", "--cache-dir", folder / "store").out.splitlines() if step in line), "")
     return int(re.findall(r"\d+", line)[0]) if line else 0
 
 
@@ -49,7 +49,7 @@ def edges(said):
 def costs_its_item(folder, deed, *words, options=()):
     """The run stops with one sentence that names step and edge, all other edges are kept, and nothing is in the way of the next run."""
     good = run(folder, "good", "nothing", store="other", code=0)
-    said = run(folder, "out", deed, "--isolate", *options)
+    said = run(folder, "out", deed, "--executor", "process", *options)
     sentence = said.err.strip().splitlines()[-1]
     assert sentence.startswith("plumb: step 'bad' (test.misbehave), edge 1-2: "), said
     said.has(*words)
@@ -89,7 +89,7 @@ def test_memory_without_end(folder):
 
 
 def test_points_that_are_no_numbers(folder):
-    costs_its_item(folder, "nan", "output 'matches' holds a point with a coordinate that is not finite")
+    costs_its_item(folder, "nan", "output 'matches' holds a point with a non-finite coordinate")
 
 
 def test_a_module_that_leaves(folder):
@@ -112,10 +112,10 @@ def test_a_worker_that_is_killed_gets_a_second_try(folder):
 
 def test_in_one_process_what_is_thrown_costs_its_item_too(folder):
     good = run(folder, "good", "nothing", store="other", code=0)
-    for deed, words in (("error", "not to its liking"), ("odd", "no std::exception"), ("terabyte", "memory is used up"), ("nan", "not finite")):
+    for deed, words in (("error", "not to its liking"), ("odd", "no std::exception"), ("terabyte", "memory is used up"), ("nan", "non-finite")):
         said = run(folder, "out", deed)
         said.has(words, "step 'bad' (test.misbehave), edge 1-2: ")
-        plumb("cache", "prune", "--size", "0B", "--store", folder / "store")
+        plumb("cache", "prune", "--size", "0B", "--cache-dir", folder / "store")
         run(folder, "out", deed)
         assert kept(folder, "test.misbehave") == edges(good) - 1
     refused(run(folder, "out", "error", "--quiet"), "step 'bad'", "edge 1-2")
@@ -124,7 +124,7 @@ def test_in_one_process_what_is_thrown_costs_its_item_too(folder):
 def test_dropped_edges_are_said_and_the_run_goes_on(folder):
     expected = None
     for deed in ("segfault", "error", "nan"):
-        said = run(folder, deed, deed, "--isolate", on_error="drop", code=0)
+        said = run(folder, deed, deed, "--executor", "process", on_error="drop", code=0)
         said.has("edge 1-2 is dropped (on_error: drop)")
         trajectory = files_of(folder / deed)["trajectory.tum"]
         expected = expected or trajectory
@@ -136,11 +136,11 @@ def test_dropped_edges_are_said_and_the_run_goes_on(folder):
 
 
 def test_poses_that_are_no_numbers_stop_the_run(folder):
-    for options in ((), ("--isolate",)):
+    for options in ((), ("--executor", "process")):
         said = run(folder, "out", "nan", *options, where="last")
-        said.has("step 'last' (test.missolve): its output 'poses' holds a pose with a number that is not finite")
+        said.has("step 'last' (test.missolve): its output 'poses' holds a pose with a non-finite number")
         assert not (folder / "out").exists()
-    run(folder, "out", "segfault", "--isolate", where="last").has("step 'last' (test.missolve): its process was ended by signal 11")
+    run(folder, "out", "segfault", "--executor", "process", where="last").has("step 'last' (test.missolve): its process was ended by signal 11")
 
 
 def test_on_error_is_checked(folder):
@@ -154,4 +154,4 @@ def test_on_error_is_checked(folder):
 
 def test_a_time_limit_is_named_however_short_it_is(folder):
     for number, limit in enumerate(("0.003s", "0.02s", "0.11s", "0.3s")):
-        run(folder, "out", "loop", "--isolate", "--time-limit", limit, store=f"store{number}").has(f"time limit of {limit[:-1]} s (--time-limit)")
+        run(folder, "out", "loop", "--executor", "process", "--time-limit", limit, store=f"store{number}").has(f"time limit of {limit[:-1]} s (--time-limit)")

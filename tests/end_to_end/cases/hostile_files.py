@@ -17,7 +17,7 @@ TIME, MEMORY = 60, 2 << 30  # far more than is needed under any load, far less t
 def bounded(*arguments, code):
     """Runs the command with a bound of its address space; what waits for ever or takes all memory fails the case."""
     command = [str(a) for a in (PLUMB, *arguments)]
-    variables = {k: v for k, v in os.environ.items() if not k.startswith("PLUMB") or k == "PLUMB_STORE"}
+    variables = {k: v for k, v in os.environ.items() if not k.startswith("PLUMB") or k == "PLUMB_CACHE_DIR"}
     done = subprocess.run(command, capture_output=True, env=variables, stdin=subprocess.DEVNULL, timeout=TIME,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)))
     done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()  # what is said is UTF-8 whatever it is about
@@ -92,7 +92,7 @@ def test_files_of_flags_are_of_bounded_size(folder):
     street = sequence("street")
     good = ["run", CASCADE, "--set", f"input={street}", "-o", folder / "out"]
     refused(bounded("run", "--locked", folder / "huge", "-o", folder / "out", code=WRONG_INPUT), "no record of a run is larger than")
-    refused(bounded(*good, "--store", folder / "store", *SLURM, folder / "huge", code=WRONG_INPUT), "no executor profile is larger than")
+    refused(bounded(*good, "--cache-dir", folder / "store", *SLURM, folder / "huge", code=WRONG_INPUT), "no executor profile is larger than")
     for command in (["check", folder / "huge"], [*good, "--preset", folder / "huge"]):
         bounded(*command, code=WRONG_INPUT).has("no pipeline is larger than 1 MiB")
     refused(bounded("simulate", folder / "huge", "-o", folder / "sim", code=WRONG_INPUT), "no scene is larger than")
@@ -107,7 +107,7 @@ def test_devices_in_place_of_files_of_flags(folder):
     good = ["run", CASCADE, "--set", f"input={street}", "-o", folder / "out"]
     device = "/dev/zero"
     refused(bounded("run", "--locked", device, "-o", folder / "out", code=WRONG_INPUT), "/dev/zero: is a device, not a regular file")
-    refused(bounded(*good, "--store", folder / "store", *SLURM, device, code=WRONG_INPUT), "is a device, not a regular file")
+    refused(bounded(*good, "--cache-dir", folder / "store", *SLURM, device, code=WRONG_INPUT), "is a device, not a regular file")
     for command in (["check", device], [*good, "--preset", device]):
         bounded(*command, code=WRONG_INPUT).has("'/dev/zero' is a device, not a pipeline")
     refused(bounded("evaluate", street, device, code=WRONG_INPUT), "is a device, not a regular file")
@@ -120,7 +120,7 @@ def test_pipes_in_place_of_files_of_flags(folder):
     street = sequence("street")
     good = ["run", CASCADE, "--set", f"input={street}", "-o", folder / "out"]
     refused(bounded("run", "--locked", pipe, "-o", folder / "out", code=WRONG_INPUT), "pipe: is a pipe, not a regular file")
-    refused(bounded(*good, "--store", folder / "store", *SLURM, pipe, code=WRONG_INPUT), "is a pipe, not a regular file")
+    refused(bounded(*good, "--cache-dir", folder / "store", *SLURM, pipe, code=WRONG_INPUT), "is a pipe, not a regular file")
     for command in (["check", pipe], ["resolve", pipe], [*good, "--preset", pipe]):
         bounded(*command, code=WRONG_INPUT).has("pipe' is a pipe, not a pipeline")
     refused(bounded("evaluate", street, pipe, code=WRONG_INPUT), "is a pipe, not a regular file")
@@ -228,7 +228,7 @@ def test_files_that_are_no_pipelines_are_not_printed(folder):
         for options in (["check", folder / name], ["check", folder / "p.yaml", "--preset", folder / name]):
             said = bounded(*options, code=WRONG_INPUT).has("is no pipeline")
             assert "secret" not in said.err + said.out, said
-        command = ["run", CASCADE, "--set", f"input={sequence('street')}", "-o", folder / "out", "--store", folder / "store", *SLURM, folder / name]
+        command = ["run", CASCADE, "--set", f"input={sequence('street')}", "-o", folder / "out", "--cache-dir", folder / "store", *SLURM, folder / name]
         said = bounded(*command, code=WRONG_INPUT).has("an executor profile has no key" if name == "hosts.yml" else "is no executor profile")
         assert "secret" not in said.err + said.out, said
     checked(folder, "plumb: 1\nextends: /etc/passwd\n", "'/etc/passwd' is no pipeline")

@@ -221,15 +221,15 @@ def test_no_point_left_is_said(folder):
 
 
 def test_the_store_and_the_results_lie_apart(folder):
-    run(folder, "-o", folder / "out", "--store", folder / "store")
-    refused(run(folder, "-o", folder / "out", "--store", folder / "out/store", code=WRONG_INPUT), "--store", "beside")
-    refused(run(folder, "-o", folder / "store/out", "--store", folder / "store", code=WRONG_INPUT), "lies in the store", "another folder")
+    run(folder, "-o", folder / "out", "--cache-dir", folder / "store")
+    refused(run(folder, "-o", folder / "out", "--cache-dir", folder / "out/store", code=WRONG_INPUT), "--cache-dir", "beside")
+    refused(run(folder, "-o", folder / "store/out", "--cache-dir", folder / "store", code=WRONG_INPUT), "lies in the cache", "another folder")
     assert not (folder / "out/store").exists() and not (folder / "store/out").exists()
-    run(folder, "-o", folder / "out", "--store", folder / "store")
+    run(folder, "-o", folder / "out", "--cache-dir", folder / "store")
 
 
 def test_an_empty_value_is_not_taken_for_none(folder):
-    for option in ("--memory", "--store", "--log", "--events", "--time-limit", "--item-memory"):
+    for option in ("--memory", "--cache-dir", "--log", "--events", "--time-limit", "--item-memory"):
         refused(run(folder, "-o", folder / "out", option, "", code=WRONG_INPUT), option, "is empty")
     assert not (folder / "out").exists()
 

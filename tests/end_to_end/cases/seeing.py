@@ -60,8 +60,8 @@ def test_spans_of_one_thread_lie_inside_or_beside_each_other(folder):
 
 
 def test_the_events_come_a_line_each_and_say_what_was_reused(folder):
-    run(folder, "first", "--events", folder / "first.jsonl", "--store", folder / "store")
-    said = run(folder, "again", "--events", folder / "again.jsonl", "--store", folder / "store")
+    run(folder, "first", "--events", folder / "first.jsonl", "--cache-dir", folder / "store")
+    said = run(folder, "again", "--events", folder / "again.jsonl", "--cache-dir", folder / "store")
     first, again = events_of(folder / "first.jsonl"), events_of(folder / "again.jsonl")
     assert first[0]["event"] == "run_begins" and first[-1]["event"] == "run_ends" and "sentence" not in first[-1]
     assert first[-1]["peak_bytes"] > 10 << 20 and first[-1]["cpu_seconds"] > 0

@@ -1,4 +1,4 @@
-"""`--store`: what did not change is taken from an earlier run, and the bytes are the same."""
+"""`--cache-dir`: what did not change is taken from an earlier run, and the bytes are the same."""
 import os
 import random
 import re
@@ -13,8 +13,8 @@ FAST = ["--set", "ranges.frames=10"]
 
 def run(folder, out, *options, seen=None, code=0):
     """Runs the cascade with a store; how many results were reused and made."""
-    said = plumb("run", CASCADE, "--set", f"input={seen or sequence('street')}", *FAST, "--store", folder / "store", *options, "-o", folder / out, code=code)
-    numbers = re.search(r"store: (\d+) results reused, (\d+) made", said.err)
+    said = plumb("run", CASCADE, "--set", f"input={seen or sequence('street')}", *FAST, "--cache-dir", folder / "store", *options, "-o", folder / out, code=code)
+    numbers = re.search(r"cache: (\d+) results reused, (\d+) made", said.err)
     return said, *(int(n) for n in numbers.groups())
 
 
@@ -29,17 +29,17 @@ def test_a_second_run_makes_next_to_nothing_and_the_same_bytes(folder):
     _, reused, again = run(folder, "again")
     assert files_of(folder / "first") == expected == files_of(folder / "again")
     assert again <= 2 < first and reused > again, (first, reused, again)  # the source opens its folder; frames are not made
-    _, _, fresh = run(folder, "fresh", "--fresh")
+    _, _, fresh = run(folder, "fresh", "--refresh")
     assert fresh == first and files_of(folder / "fresh") == expected
 
 
 def test_killed_at_any_moment_it_goes_on_from_there(folder):
     expected = made_anew(folder, "without")
     begin = time.monotonic()
-    run(folder, "timed", "--fresh")
+    run(folder, "timed", "--refresh")
     whole = time.monotonic() - begin
     shutil.rmtree(folder / "store")
-    command = [PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", folder / "store", "-o", folder / "out"]
+    command = [PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--cache-dir", folder / "store", "-o", folder / "out"]
     moments, kept = random.Random(7), {}
     for _ in range(5):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -98,11 +98,11 @@ def test_damage_is_noticed_made_again_and_said(folder):
 def test_a_folder_that_is_no_store_and_one_of_a_later_program(folder):
     (folder / "thesis").mkdir()
     (folder / "thesis/a.tex").write_text("mine")
-    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no store")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--cache-dir", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no cache")
     (folder / "store").mkdir()
     (folder / "store/plumb-store").write_text("plumb store 3\n")
-    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")
-    refused(plumb("cache", "verify", "--store", folder / "store", code=WRONG_INPUT), "another format")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--cache-dir", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")
+    refused(plumb("cache", "verify", "--cache-dir", folder / "store", code=WRONG_INPUT), "another format")
     assert not (folder / "out").exists()
 
 
@@ -117,7 +117,7 @@ def test_a_full_disk_costs_the_keeping_alone(folder):
         print("skipped: no file system can be mounted here")
         raise SystemExit(77)
     try:
-        command = ["run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", small / "store"]
+        command = ["run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--cache-dir", small / "store"]
         plumb(*command, "-o", folder / "full").has("nothing was kept", "No space left", "make room")
         plumb(*command, "-o", folder / "again")
         assert files_of(folder / "full") == expected == files_of(folder / "again")
@@ -150,13 +150,13 @@ def test_explain_names_the_first_difference(folder):
 
 def test_two_runs_at_once_on_one_store(folder):
     expected = made_anew(folder, "without")
-    commands = [[PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--store", folder / "store", "-o", folder / out] for out in ("a", "b")]
+    commands = [[PLUMB, "run", CASCADE, "--set", f"input={sequence('street')}", *FAST, "--cache-dir", folder / "store", "-o", folder / out] for out in ("a", "b")]
     runs = [subprocess.Popen([str(w) for w in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for command in commands]
     for process in runs:
         _, said = process.communicate(timeout=600)
         assert process.returncode == 0 and "damaged" not in said, said
     assert files_of(folder / "a") == expected == files_of(folder / "b")
-    plumb("cache", "verify", "--store", folder / "store")
+    plumb("cache", "verify", "--cache-dir", folder / "store")
 
 
 def test_verify_inputs_looks_into_files_whose_time_stayed(folder):
@@ -176,5 +176,5 @@ def test_verify_inputs_looks_into_files_whose_time_stayed(folder):
 def test_bounded_memory_leaves_the_same_bytes(folder):
     expected = made_anew(folder, "without")
     for threads in ("1", "2"):
-        run(folder, "bounded" + threads, "--memory", "256MiB", "--threads", threads, "--fresh")
+        run(folder, "bounded" + threads, "--memory", "256MiB", "--threads", threads, "--refresh")
         assert files_of(folder / ("bounded" + threads)) == expected

@@ -12,7 +12,7 @@ NOBODY = 65534
 
 
 def run(folder, out, *options, store="store", code=0):
-    return plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--set", "ranges.frames=10", "--store", folder / store, *options,
+    return plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--set", "ranges.frames=10", "--cache-dir", folder / store, *options,
                  "-o", folder / out, code=code)
 
 
@@ -70,27 +70,27 @@ def no_values(data, at):
 def test_values_that_no_step_gives_are_made_again_though_their_checksum_fits(folder):
     expected = run(folder, "first") and files_of(folder / "first")
     poisons = [("Edges", edge_beyond, "holds an edge between segments that there are not"),
-               ("Poses", pose_of_no_numbers, "holds a pose with a number that is not finite"),
+               ("Poses", pose_of_no_numbers, "holds a pose with a non-finite number"),
                ("Segment", range_beyond, "holds a range of frames that does not have a pose for each of them"),
                ("Matches", no_values, "")]
     for number, (type_name, change, why) in enumerate(poisons):
-        for options in ((), ("--isolate",)):
+        for options in ((), ("--executor", "process")):
             changed = poison(folder, type_name, change)
             said = run(folder, f"out{number}", *options)
-            seen = int(re.search(r"store: (\d+) damaged result", said.err)[1])
+            seen = int(re.search(r"cache: (\d+) damaged result", said.err)[1])
             assert 0 < seen <= changed, said  # what nobody asked for is still there
             said.has("removed and made again", why)
             assert files_of(folder / f"out{number}") == expected, f"{type_name} {options}"
-            plumb("cache", "verify", "--store", folder / "store", code=WRONG_INPUT if seen < changed else 0)
+            plumb("cache", "verify", "--cache-dir", folder / "store", code=WRONG_INPUT if seen < changed else 0)
             assert "damaged" not in run(folder, "again").err
 
 
 def test_verify_finds_values_that_no_step_gives(folder):
     run(folder, "first")
     changed = poison(folder, "Edges", edge_beyond)
-    said = plumb("cache", "verify", "--store", folder / "store", code=WRONG_INPUT)
+    said = plumb("cache", "verify", "--cache-dir", folder / "store", code=WRONG_INPUT)
     assert said.out.count("damaged and removed: edges.") == changed, said
-    plumb("cache", "verify", "--store", folder / "store").has("all whole")
+    plumb("cache", "verify", "--cache-dir", folder / "store").has("all whole")
 
 
 def test_pipes_and_links_in_a_store_are_never_opened(folder):
@@ -106,17 +106,17 @@ def test_pipes_and_links_in_a_store_are_never_opened(folder):
         for blob in blobs(folder)[::7]:
             blob.unlink()
             put(blob)
-        said = run(folder, "out", "--isolate").has("damaged result", "is no regular file")
+        said = run(folder, "out", "--executor", "process").has("damaged result", "is no regular file")
         assert files_of(folder / "out") == expected and theirs.read_text() == "not to be touched", said
         blob = blobs(folder)[0]
         blob.unlink()
         put(blob)
-        plumb("cache", "verify", "--store", folder / "store", code=WRONG_INPUT).has("damaged and removed")
+        plumb("cache", "verify", "--cache-dir", folder / "store", code=WRONG_INPUT).has("damaged and removed")
         lock = folder / "store/index.lock"
         lock.unlink()
         put(lock)
         run(folder, "out").has("its index is not used", "index.lock' is no regular file")
-        refused(plumb("cache", "prune", "--size", "0B", "--store", folder / "store", code=WRONG_INPUT),
+        refused(plumb("cache", "prune", "--size", "0B", "--cache-dir", folder / "store", code=WRONG_INPUT),
                 "its index cannot be used", "remove it", "nothing was removed")
         lock.unlink()
         mark = folder / "store/plumb-store"
@@ -140,15 +140,15 @@ def test_a_store_that_others_may_write_or_own_is_refused_unless_that_is_said(fol
     store = folder / "store"
 
     def is_refused(*words):
-        refused(run(folder, "no", "--quiet", code=WRONG_INPUT), str(store), *words, "--trust-store")
-        refused(run(folder, "no", "--quiet", "--isolate", code=WRONG_INPUT), *words, "--trust-store")
+        refused(run(folder, "no", "--quiet", code=WRONG_INPUT), str(store), *words, "--trust-cache")
+        refused(run(folder, "no", "--quiet", "--executor", "process", code=WRONG_INPUT), *words, "--trust-cache")
         nothing_left(folder / "no")
         for command in ([], ["verify"], ["prune", "--size", "0B"]):
-            refused(plumb("cache", *command, "--store", store, code=WRONG_INPUT), *words)
-        for options in ((), ("--isolate",)):
-            said = run(folder, "out", "--trust-store", *options)
+            refused(plumb("cache", *command, "--cache-dir", store, code=WRONG_INPUT), *words)
+        for options in ((), ("--executor", "process")):
+            said = run(folder, "out", "--trust-cache", *options)
             assert files_of(folder / "out") == expected and "damaged" not in said.err, said
-        plumb("cache", "verify", "--store", store, "--trust-store").has("all whole")
+        plumb("cache", "verify", "--cache-dir", store, "--trust-cache").has("all whole")
 
     store.chmod(0o777)
     is_refused("may be written by everybody (mode 0777)", "chmod -R go-w")
@@ -166,10 +166,10 @@ def test_the_users_own_store_is_gone_without_when_others_may_write_it(folder):
     cache.mkdir(parents=True)
     cache.chmod(0o777)
     said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "--set", "ranges.frames=5", "-o", folder / "out",
-                 environment={"PLUMB_STORE": "", "XDG_CACHE_HOME": str(folder / "cache")})
-    said.has("nothing is kept", "may be written by everybody", "--trust-store")
+                 environment={"PLUMB_CACHE_DIR": "", "XDG_CACHE_HOME": str(folder / "cache")})
+    said.has("nothing is kept", "may be written by everybody", "--trust-cache")
     assert not list(cache.iterdir()) and (folder / "out/trajectory.tum").exists()
     shutil.rmtree(cache)
     plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "--set", "ranges.frames=5", "-o", folder / "out",
-          environment={"PLUMB_STORE": "", "XDG_CACHE_HOME": str(folder / "cache")})
+          environment={"PLUMB_CACHE_DIR": "", "XDG_CACHE_HOME": str(folder / "cache")})
     assert stat.S_IMODE(cache.stat().st_mode) == 0o700 and (cache / "blobs").is_dir()

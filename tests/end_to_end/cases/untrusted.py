@@ -174,7 +174,7 @@ def test_bounds(folder):
     plumb("run", pipeline, "--untrusted", "--max-memory", "1MiB", *given, code=WRONG_INPUT).has("too little")
     plumb("run", pipeline, "--untrusted", "--max-time", "0s", *given, code=WRONG_INPUT).has("above zero")
     plumb("run", pipeline, "--max-time", "10s", *given, code=WRONG_COMMAND_LINE).has("--untrusted")
-    plumb("run", pipeline, "--untrusted", "--isolate", *given, code=WRONG_COMMAND_LINE)
+    plumb("run", pipeline, "--untrusted", "--executor", "process", *given, code=WRONG_COMMAND_LINE)
     slow = ["run", PIPELINES / "tang2024.yaml", "--untrusted", "--max-time", "1s", "--set", f"input={sequence('street')}", "--threads", "1", "--quiet"]
     plumb(*slow, "-o", place.out, code=STEP_FAILED).has("ended after --max-time 1s")
     nothing_left(place.out)

@@ -82,7 +82,7 @@ TEST_F(WithStore, ASecondRunOpensNoFrame) {
     const RunResult result = run_plan(plan, steps, options, silent);
     EXPECT_EQ(engine_test::frames_opened, opened);
     const auto& merged = result.explained.at(2);
-    EXPECT_EQ(merged.text(), opened ? "merged: made, all 4: this store knows no earlier run of it"
+    EXPECT_EQ(merged.text(), opened ? "merged: made, all 4: this cache knows no earlier run of it"
                                     : "merged: reused, all 4");
   }
 }

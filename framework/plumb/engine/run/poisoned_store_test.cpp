@@ -98,7 +98,7 @@ TEST_F(PoisonedStore, WithColumnsOfUnlikeLength) {
 }
 
 TEST_F(PoisonedStore, WithPosesThatAreNoNumbers) {
-  expect_made_again("test.halve", "not finite", [](StoredResult& r) {
+  expect_made_again("test.halve", "non-finite", [](StoredResult& r) {
     spoil<Poses>(r, [](Poses& p) {
       p.T_world_segment.at(1).translation.x() = std::numeric_limits<double>::infinity();
     });
@@ -128,7 +128,7 @@ TEST_F(PoisonedStore, WithAGraphOfMoreSegmentsThanThereAreIsRefused) {
   const std::string said = io::refusal([&] { run(); });
   EXPECT_THAT(said, HasSubstr("step 'loop.pairs' (test.pair): 'segments' has 4 items where the "
                               "graph of the edges has 9"));
-  EXPECT_THAT(said, HasSubstr("--fresh"));
+  EXPECT_THAT(said, HasSubstr("--refresh"));
   EXPECT_EQ(run(true), before);
 }
 

@@ -145,7 +145,7 @@ class Runner {
     const Facts facts = run.facts();
     const Facts before = store_->index()->facts(plan_.name, step.path, one.pass);
     one.why =
-        before.empty() ? "this store knows no earlier run of it" : first_difference(before, facts);
+        before.empty() ? "this cache knows no earlier run of it" : first_difference(before, facts);
     store_->index()->set_facts(plan_.name, step.path, one.pass, facts);
     explained_.push_back(std::move(one));
   }

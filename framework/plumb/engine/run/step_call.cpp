@@ -36,8 +36,8 @@ std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k, const Sour
       if (range->end > there)
         throw NestedError(title(k) + ": has frames up to " + std::to_string(range->end) +
                           " and there are " + std::to_string(there) +
-                          "; wire ranges that these frames were cut into, and if a store was "
-                          "changed by hand, run with --fresh");
+                          "; wire ranges that these frames were cut into, and if a cache was "
+                          "changed by hand, run with --refresh");
       return {range->first, range->end};
     }
   throw Error("has frames but no ranges");

@@ -62,7 +62,7 @@ void StepRun::refuse_counts(const std::string& one, std::size_t have, const std:
   throw NestedError(
       "step '" + plan_.path + "' (" + plan_.description->name + "): " + one + " has " +
       std::to_string(have) + " items where " + other + " has " + std::to_string(wanted) +
-      "; wire what was cut alike, and if a store was changed by hand, run with --fresh");
+      "; wire what was cut alike, and if a cache was changed by hand, run with --refresh");
 }
 
 void StepRun::adopt_items(std::vector<Hash128> keys, Source edges) {
@@ -152,7 +152,7 @@ void StepRun::make_items_elsewhere() {
       else if (!has_result(k))
         throw NestedError(
             title(k) +
-            ": its result did not come into the store; is the folder the same for all processes?");
+            ": its result did not come into the cache; is the folder the same for all processes?");
       else
         state_.results.made_elsewhere(kept_keys_[k], plan_.description->name);
       if (failed.size() >= most_failures && plan_.on_error == OnError::stop) settle(failed);
@@ -202,7 +202,7 @@ SharedResult StepRun::fetch(std::size_t k) {
   if (pins_[k]) return pins_[k];
   if (auto found = find(kept_keys_[k])) return found;
   if (inputs_.empty() && !plan_.description->inputs.empty())
-    throw NestedError(title(k) + ": its result is gone from the store; run again, it is made anew");
+    throw NestedError(title(k) + ": its result is gone from the cache; run again, it is made anew");
   const Stopwatch watch(state_.books, plan_.path);
   StoredResult said;
   auto outputs = call(k, &said);

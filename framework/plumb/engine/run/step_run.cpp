@@ -141,9 +141,9 @@ void StepRun::make_one(std::size_t k, const Hash128& expected, Reply& reply) {
   if (lazy())
     reply.result = blob_of(key, result, plan_.description->name);
   else if (!state_.results.store()->put(key, result, plan_.description->name))
-    throw MachineryError(title(k) + ": its result cannot be kept in the store (" +
+    throw MachineryError(title(k) + ": its result cannot be kept in the cache (" +
                          state_.results.store()->fault() +
-                         "); make room, or name another with --store");
+                         "); make room, or name another with --cache-dir");
 }
 
 /// What a call said in another process, as if it had been made here, and that it was made.
@@ -193,10 +193,10 @@ void StepRun::require_in_store() const {
   if (!all)
     throw Error(
         "step '" + plan_.path +
-        "': not all of its results are in the store, from which workers take them" +
+        "': not all of its results are in the cache, from which workers take them" +
         (results.store()->fault().empty()
              ? std::string("; run again")
-             : " (" + results.store()->fault() + "); make room, or name another with --store"));
+             : " (" + results.store()->fault() + "); make room, or name another with --cache-dir"));
 }
 
 std::size_t StepRun::count(int output) const {

@@ -79,7 +79,7 @@ void StepRun::make_whole_elsewhere() {
       lazy_[o].keys = reply.lazy[o];
       lazy_[o].open = [](std::size_t, Context&) -> AnyValue {
         throw Error(
-            "its values are made by workers alone; a result was lost from the store meanwhile: run "
+            "its values are made by workers alone; a result was lost from the cache meanwhile: run "
             "again, it is made anew");
       };
     }
@@ -94,7 +94,7 @@ void StepRun::make_whole_elsewhere() {
       if (!found)
         throw NestedError(
             title(0) +
-            ": its result did not come into the store; is the folder the same for all processes?");
+            ": its result did not come into the cache; is the folder the same for all processes?");
       if (stays_in_memory(*found)) whole_pin_ = std::move(found);
     }
   });
@@ -152,7 +152,7 @@ SharedResult StepRun::whole() {
   if (whole_pin_) return whole_pin_;
   if (auto found = state_.results.find(whole_key_)) return found;
   if (inputs_.empty() && !plan_.description->inputs.empty())
-    throw NestedError(title(0) + ": its result is gone from the store; run again, it is made anew");
+    throw NestedError(title(0) + ": its result is gone from the cache; run again, it is made anew");
   StoredResult said;
   auto outputs = call(0, &said);
   SharedResult pin;

@@ -44,9 +44,9 @@ class Conditions {
       condition.falls_by_less_than = share(*falls);
     else
       condition.below = bound(*below);
-    condition.metric_text = metric->text;
-    condition.text =
-        metric->text + (falls ? " falls by less than " + falls->text : " is below " + below->text);
+    condition.metric_text = text_of_now(draft_, *metric);
+    condition.text = condition.metric_text +
+                     (falls ? " falls by less than " + falls->text : " is below " + below->text);
     planned_.conditions.push_back(std::move(condition));
   }
 
@@ -118,11 +118,15 @@ class Conditions {
       if (source.type != &type_of<Metrics>() || source.grain != Grain::whole ||
           source.wire.step < 0)
         continue;
-      const std::string port =
-          draft_.plan.steps[source.wire.step].description->outputs[source.wire.output].name;
-      if (rest == port || rest.rfind(port + ".", 0) == 0) {
+      const StepDescription& giver = *draft_.plan.steps[source.wire.step].description;
+      const std::string& port = giver.outputs[source.wire.output].name;
+      const std::string word = rest.substr(0, rest.find('.'));
+      const auto now = draft_.names.output(giver, word);
+      if (now.value_or(word) == port) {
         fitting = {&source};
-        rest.erase(0, port.size() + 1);
+        rest.erase(0, word.size());
+        if (now) rename(draft_, metric, step.text + "." + port + rest);
+        rest.erase(0, 1);
         break;
       }
       fitting.push_back(&source);

@@ -2,11 +2,13 @@
 /// A pipeline in the making: the tree, the names in it, and the Plan as far as it is known. Each
 /// pass over it is one file.
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "plumb/pipeline/bind/plan.hpp"
+#include "plumb/pipeline/yaml/renamer.hpp"
 #include "plumb/pipeline/yaml/tree.hpp"
 #include "plumb/pipeline/yaml/value.hpp"
 #include "plumb/plugin/registry.hpp"
@@ -80,15 +82,19 @@ struct Setting {
 struct Draft {
   const Registry& registry;
   Diagnostics& diagnostics;
+  Renamer& names;
   Node tree;
+  std::set<std::string> referenced = {};  ///< Loaded::referenced
   bool open = false;
-  Plan plan;
-  std::vector<Scope> scopes;
-  std::vector<DraftStep> steps;      ///< as plan.steps
-  std::vector<DraftRepeat> repeats;  ///< as plan.repeats
-  std::map<std::string, Setting> settings;
+  Plan plan = {};
+  std::vector<Scope> scopes = {};
+  std::vector<DraftStep> steps = {};      ///< as plan.steps
+  std::vector<DraftRepeat> repeats = {};  ///< as plan.repeats
+  std::map<std::string, Setting> settings = {};
   bool dangling =
       false;  ///< something that was written leads nowhere: what it meant only looks unused
+  std::map<const Node*, std::string> rewritten = {};  ///< nodes of the tree by the names of now
+  std::deque<Node> renamed = {};                      ///< copies of such nodes
 
   void fault(const Origin& origin, std::string sentence, std::string hint = "") {
     diagnostics.add(origin, std::move(sentence), std::move(hint));
@@ -118,8 +124,24 @@ std::optional<std::vector<Source>> sources_of(Draft& draft, int scope, const Nod
 bool choose(Draft& draft, const Source& source);
 /// What a source is, for sentences: "Features, one per segment".
 std::string kind_of(const Type& type, Grain grain);
+/// The row of the repeats from `repeat` outwards that has this name.
+std::optional<std::pair<int, int>> find_row(const Draft& draft, const std::string& name,
+                                            int repeat);
 /// Whether a repeat is `inside` of another or the same; -1 is the pipeline.
 bool inside(const Draft& draft, int repeat, int of);
+
+/// Notes that a node is read as `now` (yaml/renamer.hpp).
+void rename(Draft& draft, const Node& node, const std::string& now);
+/// What a node says by the names of now.
+const std::string& text_of_now(const Draft& draft, const Node& node);
+/// The parameter or row that "$name" at `node` means, by its name of now.
+std::string setting_of_now(Draft& draft, const Node& node, const std::string& name, int repeat);
+/// `node`, or a copy with the choice by its name of now; of a row or parameter that it refers to
+/// the values are replaced.
+const Node& choice_of_now(Draft& draft, int step, const ParameterDescription& parameter,
+                          const Node& node);
+/// Puts what was noted into the tree.
+void rewrite(Draft& draft);
 
 /// Letters, digits and '_', a letter first.
 bool valid_name(std::string_view name);

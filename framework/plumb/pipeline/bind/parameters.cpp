@@ -38,8 +38,9 @@ void read_step(Draft& draft, int index) {
     PlannedParameter filled;
     filled.value = parameter.standard;
     if (const Node* node = with ? with->at(parameter.name) : nullptr) {
-      const auto value = value_of(draft, title + ": parameter '" + parameter.name + "'", parameter,
-                                  *node, step.repeat, &filled);
+      const auto value =
+          value_of(draft, title + ": parameter '" + parameter.name + "'", parameter,
+                   choice_of_now(draft, index, parameter, *node), step.repeat, &filled);
       if (value) filled.value = *value;
     } else if (parameter.required && !step.misspelt) {
       draft.fault(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/pipeline/yaml/origin.hpp"
+#include "plumb/pipeline/yaml/renaming.hpp"
 #include "plumb/plugin/description.hpp"
 
 namespace plumb {
@@ -51,7 +52,7 @@ struct PlannedItem {
 
 struct PlannedRow {
   std::string name;
-  std::vector<ParameterValue> values;  ///< one a pass, or one for all
+  std::vector<ParameterValue> values;  ///< one a pass, or one for all; none when nothing uses it
   ParameterKind kind = ParameterKind::number;
   Quantity quantity = Quantity::none;
   Origin origin;
@@ -108,6 +109,7 @@ struct Plan {
   std::vector<PlannedItem> order;
   std::string
       resolved;  ///< the pipeline after overlays as YAML, each value with a comment on its origin
+  std::vector<Renaming> renamings;  ///< what is written as an earlier release had it
 };
 
 }  // namespace plumb

@@ -98,6 +98,11 @@ class Lookup {
       draft_.steps[step].used = true;
       return std::nullopt;  // told where the step is
     }
+    if (used + 1 == parts_.size())
+      if (const auto now = draft_.names.output(*description, parts_[used])) {
+        parts_[used] = *now;
+        rename(draft_, node_, joined(parts_, "."));
+      }
     std::vector<Source> sources;
     std::vector<std::string> known;
     for (std::size_t k = 0; k < description->outputs.size(); ++k) {
@@ -108,7 +113,7 @@ class Lookup {
       Source source;
       source.wire.step = step;
       source.wire.output = static_cast<int>(k);
-      source.wire.label = node_.text;
+      source.wire.label = text_of_now(draft_, node_);
       source.wire.origin = node_.origin;
       source.type = output.type;
       source.grain = grain_of(*description, output);

@@ -149,9 +149,6 @@ void read_settings(Draft& draft) {
   for (const Entry& entry : parameters->entries) read_setting(draft, entry);
 }
 
-namespace {
-
-/// A row of the repeats from `repeat` outwards.
 std::optional<std::pair<int, int>> find_row(const Draft& draft, const std::string& name,
                                             int repeat) {
   for (; repeat >= 0; repeat = draft.repeats[repeat].parent) {
@@ -161,6 +158,8 @@ std::optional<std::pair<int, int>> find_row(const Draft& draft, const std::strin
   }
   return std::nullopt;
 }
+
+namespace {
 
 std::optional<ParameterValue> setting_value(Draft& draft, const std::string& place,
                                             const ParameterDescription& parameter, const Node& node,
@@ -222,11 +221,12 @@ std::optional<ParameterValue> row_value(Draft& draft, const std::string& place,
 std::optional<ParameterValue> value_of(Draft& draft, const std::string& place,
                                        const ParameterDescription& parameter, const Node& node,
                                        int repeat, PlannedParameter* planned) {
-  if (const auto name = reference_in(node)) {
+  if (const auto reference = reference_in(node)) {
+    const std::string name = setting_of_now(draft, node, *reference, planned ? repeat : -1);
     if (planned)
-      if (const auto row = find_row(draft, *name, repeat))
+      if (const auto row = find_row(draft, name, repeat))
         return row_value(draft, place, parameter, row->first, row->second, planned);
-    return setting_value(draft, place, parameter, node, *name, planned);
+    return setting_value(draft, place, parameter, node, name, planned);
   }
   auto value = read_value(parameter, node);
   if (const auto* fault = std::get_if<Fault>(&value)) {

@@ -146,7 +146,7 @@ class Binder {
       if (fitting.size() != 1 && source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
     }
     if (fitting.size() == 1) {
-      wire(fitting[0].first, *fitting[0].second, from.text);
+      wire(fitting[0].first, *fitting[0].second);
     } else if (fitting.empty()) {
       std::vector<std::string> want;
       for (const InputDescription& input : inputs)
@@ -197,18 +197,18 @@ class Binder {
       if (input->access == Access::several && !entry.value.is_scalar())
         bind_several(index, entry.value);
       else
-        bind_port(index, entry.value, entry.value.text);
+        bind_port(index, entry.value);
     }
   }
 
   void bind_several(std::size_t input, const Node& from) {
-    for (const Node& item : from.items) bind_port(input, item, item.text);
+    for (const Node& item : from.items) bind_port(input, item);
     for (const Entry& entry : from.entries) bind_port(input, entry.value, entry.key);
     if (from.items.empty() && from.entries.empty())
       fault(from, "expected names of steps, found " + from.shown() + " without any.");
   }
 
-  void bind_port(std::size_t index, const Node& reference, const std::string& label) {
+  void bind_port(std::size_t index, const Node& reference, const std::string& label = "") {
     const InputDescription& input = planned_.description->inputs[index];
     const auto sources = sources_of(draft_, scope_, reference);
     if (!sources) return void(faulty_ = true);
@@ -232,8 +232,10 @@ class Binder {
             "Write " + reference.text + ".OUTPUT.");
   }
 
-  void wire(std::size_t input, const Source& source, const std::string& label) {
+  /// Without a label it is what the source is called.
+  void wire(std::size_t input, const Source& source, const std::string& given = "") {
     if (!choose(draft_, source)) return void(faulty_ = true);
+    const std::string& label = given.empty() ? source.wire.label : given;
     auto& wires = planned_.inputs[input];
     for (const Wire& other : wires)
       if (other.label == label) {

@@ -13,22 +13,40 @@ bool leaves_something(const StepDescription& step) {
   });
 }
 
+bool from_command_line(const Origin& origin) { return origin.line == 0; }
+
+std::string left_without_use(const std::string& what) {
+  return "nothing uses the " + what + " any more, so that this sets nothing.";
+}
+constexpr const char* cure =
+    "What it served has another value, from a preset or from another --set: leave one of them out.";
+
 }  // namespace
 
+/// What an overlay or --set left without a use is no mistake; to set it on the command line is one.
 void find_unused(Draft& draft) {
   if (draft.dangling) return;  // it may be what was meant
-  for (const auto& [name, setting] : draft.settings)
-    if (!setting.used)
+  for (const auto& [name, setting] : draft.settings) {
+    if (setting.used) continue;
+    if (!draft.referenced.contains(name))
       draft.fault(setting.declared, "nothing uses the parameter '" + name + "'.",
                   "Write $" + name + " where its value belongs, or remove it.");
+    else if (from_command_line(setting.origin))
+      draft.fault(setting.origin, left_without_use("parameter '" + name + "'"), cure);
+  }
   for (std::size_t r = 0; r < draft.repeats.size(); ++r) {
     const PlannedRepeat& repeat = draft.plan.repeats[r];
-    for (std::size_t k = 0; k < repeat.rows.size(); ++k)
-      if (!draft.repeats[r].rows[k].used)
-        draft.fault(
-            repeat.rows[k].origin,
-            "repeat '" + repeat.path + "': no step uses the row '" + repeat.rows[k].name + "'.",
-            "Write $" + repeat.rows[k].name + " in a step of the body, or remove the row.");
+    for (std::size_t k = 0; k < repeat.rows.size(); ++k) {
+      const PlannedRow& row = repeat.rows[k];
+      if (draft.repeats[r].rows[k].used) continue;
+      if (!draft.referenced.contains(repeat.path + "." + row.name))
+        draft.fault(row.origin,
+                    "repeat '" + repeat.path + "': no step uses the row '" + row.name + "'.",
+                    "Write $" + row.name + " in a step of the body, or remove the row.");
+      else if (from_command_line(row.origin))
+        draft.fault(row.origin, left_without_use("row '" + repeat.path + "." + row.name + "'"),
+                    cure);
+    }
     for (std::size_t k = 0; k < repeat.carries.size(); ++k)
       if (!draft.repeats[r].carries[k].used)
         draft.fault(repeat.carries[k].next.origin,

@@ -65,6 +65,13 @@ class Writer {
   explicit Writer(const Draft& draft) : draft_(draft) {
     for (std::size_t k = 0; k < draft.steps.size(); ++k)
       step_of_[draft.steps[k].node] = static_cast<int>(k);
+    for (const auto& [name, setting] : draft.settings)
+      if (!setting.used) unused_.insert(draft.tree.at("parameters")->at(name));
+    for (std::size_t r = 0; r < draft.repeats.size(); ++r)
+      for (std::size_t k = 0; k < draft.repeats[r].rows.size(); ++k)
+        if (!draft.repeats[r].rows[k].used)
+          unused_.insert(draft.repeats[r].node->at("repeat")->at("passes")->at(
+              draft.plan.repeats[r].rows[k].name));
   }
 
   std::string write() {
@@ -92,13 +99,15 @@ class Writer {
       const std::string key = scalar(entry.key, false, false) + ":";
       if (entry.value.is_map() && entry.key != "from" && entry.key != "start" &&
           entry.key != "carry" && entry.key != "until") {
-        line(depth, key, "");
+        line(depth, key, unused_.contains(&entry.value) ? nothing_uses_it : "");
         if (with)
           parameters(entry.value, step->second, depth + 1);
         else
           map(entry.value, depth + 1);
       } else {
-        line(depth, key + " " + value(node, entry), entry.value.origin.text());
+        std::string comment = entry.value.origin.text();
+        if (unused_.contains(&entry.value)) comment += std::string(", ") + nothing_uses_it;
+        line(depth, key + " " + value(node, entry), comment);
       }
     }
     if (step != step_of_.end() && !node.at("with") &&
@@ -158,8 +167,10 @@ class Writer {
     }
   }
 
+  static constexpr const char* nothing_uses_it = "nothing uses it any more";
   const Draft& draft_;
   std::map<const Node*, int> step_of_;
+  std::set<const Node*> unused_;  ///< parameters and rows that an overlay left without a use
   std::string text_;
 };
 

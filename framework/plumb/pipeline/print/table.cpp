@@ -38,7 +38,8 @@ std::string passes_table(const Plan& plan) {
         ParameterDescription as;
         as.kind = repeat.rows[k].kind;
         as.quantity = repeat.rows[k].quantity;
-        lines.back().push_back(written(as, repeat.value(static_cast<int>(k), pass)));
+        const bool unused = repeat.rows[k].values.empty();  // an overlay left it so
+        lines.back().push_back(unused ? "-" : written(as, repeat.value(static_cast<int>(k), pass)));
       }
     }
     text += heading(repeat) + "\n";

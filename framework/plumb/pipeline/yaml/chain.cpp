@@ -6,6 +6,7 @@
 #include "plumb/data/io/regular_file.hpp"
 #include "plumb/pipeline/yaml/foreign_file.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
 
 namespace plumb::pipeline {
 namespace fs = std::filesystem;
@@ -13,13 +14,6 @@ namespace {
 
 constexpr std::size_t longest_chain = 16;
 constexpr std::uint64_t largest_file = 1 << 20;
-
-/// A path with its links followed; as it is written where they lead round in a circle.
-fs::path followed(const fs::path& path) {
-  std::error_code error;
-  fs::path real = fs::weakly_canonical(path, error);
-  return error ? path.lexically_normal() : real;
-}
 
 std::optional<std::string> text_of(const fs::path& file, const fs::path& pipeline,
                                    const Origin& asked, Diagnostics& diagnostics) {
@@ -56,7 +50,8 @@ std::optional<std::string> text_of(const fs::path& file, const fs::path& pipelin
 /// Appends `file` after what it extends; a preset is laid over `pipeline`. False when something
 /// cannot be read.
 bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
-            std::vector<fs::path>& open, Chain& chain, Diagnostics& diagnostics) {
+            const Overlay::Texts& texts, std::vector<fs::path>& open, Chain& chain,
+            Diagnostics& diagnostics) {
   const fs::path canonical = followed(file);
   if (std::find(open.begin(), open.end(), canonical) != open.end() ||
       open.size() >= longest_chain) {
@@ -68,7 +63,9 @@ bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
     return false;
   }
   open.push_back(canonical);
-  const auto text = text_of(file, pipeline, asked, diagnostics);
+  const auto instead = texts.find(file);
+  const auto text = instead != texts.end() ? std::optional(instead->second)
+                                           : text_of(file, pipeline, asked, diagnostics);
   if (!text) return false;
   auto tree = parse_yaml(*text, file.string(), diagnostics);
   if (!tree) return false;
@@ -83,116 +80,28 @@ bool follow(const fs::path& file, const fs::path& pipeline, const Origin& asked,
       return false;
     }
     const fs::path next = (file.parent_path() / base->text).lexically_normal();
-    if (!follow(next, pipeline, base->origin, open, chain, diagnostics)) return false;
+    if (!follow(next, pipeline, base->origin, texts, open, chain, diagnostics)) return false;
   }
   chain.links.push_back({canonical, file.string(), std::move(*tree)});
   return true;
 }
 
-bool applied(const std::vector<fs::path>& done, const fs::path& file) {
-  return std::find(done.begin(), done.end(), file) != done.end();
-}
-
-/// `file` as a path that is written in the file `from`.
-std::string relative_to(const fs::path& from, const fs::path& file) {
-  return followed(file).lexically_relative(followed(from).parent_path()).string();
-}
-
-/// What lies over no pipeline.
-bool lone_overlay(const Node& tree, Diagnostics& diagnostics) {
-  if (tree.at("steps")) return false;
-  for (const char* key : {"remove", "replace", "add", "set"})
-    if (const Entry* entry = tree.find(key)) {
-      diagnostics.add(
-          entry->origin,
-          "'" + std::string(key) + "' changes a pipeline, and this file does not say which.",
-          "Add 'extends: PIPELINE.yaml', a path relative to this file.");
-      return true;
-    }
-  return false;
-}
-
-/// The edits under 'also' of a file for one of the pipelines `done`, or null.
-const Node* also_for(const Chain::Link& link, const std::vector<fs::path>& done) {
-  const Node* also = link.tree.at("also");
-  if (!also || !also->is_map()) return nullptr;
-  for (const Entry& entry : also->entries)
-    if (applied(done, followed(link.canonical.parent_path() / entry.key))) return &entry.value;
-  return nullptr;
-}
-
-/// Lays over what of a preset's chain is not there yet.
-void stack(const fs::path& preset, Node& pipeline, std::vector<fs::path>& done,
-           std::vector<fs::path>& done_also, std::vector<std::string>& files,
-           Diagnostics& diagnostics) {
-  const Chain chain = read_chain(preset, files.front(), diagnostics);
-  if (chain.links.empty()) return;
-  const Origin origin{chain.links.back().file, 1, 1};
-  if (chain.links.size() == 1) {
-    diagnostics.add(origin, "a preset extends a pipeline, and this file extends none.",
-                    "Write 'extends: " + relative_to(chain.links.back().file, files.front()) +
-                        "', or run the file by itself.");
-    return;
-  }
-  if (!applied(done, chain.links.front().canonical)) {
-    bool any = false;
-    for (const auto& link : chain.links)
-      if (const Node* edits = also_for(link, done)) {
-        any = true;
-        if (applied(done_also, link.canonical)) continue;
-        done_also.push_back(link.canonical);
-        apply_also(pipeline, *edits, diagnostics);
-        files.push_back(link.file);
-      }
-    if (any) return;
-    diagnostics.add(chain.links[1].tree.at("extends")->origin,
-                    "this preset extends '" + chain.links.front().file + "', not the pipeline '" +
-                        files.front() + "'.",
-                    "Run it by itself, or name the edits for that pipeline in it under 'also'.");
-    return;
-  }
-  for (const auto& link : chain.links) {
-    if (applied(done, link.canonical)) continue;
-    apply_overlay(pipeline, link.tree, diagnostics);
-    done.push_back(link.canonical);
-    files.push_back(link.file);
-  }
-}
-
 }  // namespace
 
-Chain read_chain(const fs::path& file, const fs::path& pipeline, Diagnostics& diagnostics) {
-  Chain chain;
-  std::vector<fs::path> open;
-  if (!follow(file.lexically_normal(), pipeline, {file.string(), 0, 0}, open, chain, diagnostics))
-    chain.links.clear();
-  return chain;
+fs::path followed(const fs::path& path) {
+  std::error_code error;
+  fs::path real = fs::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : real;
 }
 
-std::optional<Node> load_pipeline(const fs::path& file, const Overlay& overlay,
-                                  Diagnostics& diagnostics, std::vector<std::string>& files) {
-  Chain chain = read_chain(file, {}, diagnostics);
-  if (chain.links.empty() || lone_overlay(chain.links.front().tree, diagnostics))
-    return std::nullopt;
-  Node pipeline = chain.links.front().tree;
-  std::vector<fs::path> done;
-  for (const auto& link : chain.links) {
-    if (!done.empty()) apply_overlay(pipeline, link.tree, diagnostics);
-    done.push_back(link.canonical);
-    files.push_back(link.file);
-  }
-  std::vector<fs::path> done_also;
-  for (const fs::path& preset : overlay.presets)
-    stack(preset, pipeline, done, done_also, files, diagnostics);
-  std::vector<std::string> seen;
-  for (const std::string& option : overlay.sets) {
-    const std::string key = option.substr(0, option.find('='));
-    if (std::find(seen.begin(), seen.end(), key) != seen.end())
-      diagnostics.add({"--set " + option, 0, 0}, "'" + key + "' is set twice on the command line.");
-    seen.push_back(key);
-    apply_set(pipeline, option, diagnostics);
-  }
-  return pipeline;
+Chain read_chain(const fs::path& file, const fs::path& pipeline, const Overlay::Texts& texts,
+                 Diagnostics& diagnostics) {
+  Chain chain;
+  std::vector<fs::path> open;
+  if (!follow(file.lexically_normal(), pipeline, {file.string(), 0, 0}, texts, open, chain,
+              diagnostics))
+    chain.links.clear();
+  return chain;
 }
 
 }  // namespace plumb::pipeline

@@ -2,6 +2,7 @@
 /// Presets and `--set`, as the command line gives them.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Overlay {
   bool needs_files = false;  ///< a path that leads nowhere is a mistake (check, run)
   bool untrusted =
       false;  ///< a path that a file names is a mistake unless it lies in one that `sets` name
+  using Texts = std::map<std::filesystem::path, std::string>;
+  Texts texts = {};  ///< what is read instead of the files of those names (migrate)
 };
 
 }  // namespace plumb

@@ -54,12 +54,60 @@ TEST_F(Overlays, SetParametersRowsAndStepsOnTheCommandLine) {
   EXPECT_EQ(value(plan, "coarse.kept", "clusters"), ParameterValue(std::int64_t{4}));
 }
 
-TEST_F(Overlays, RefuseToSetWhatARowDrives) {
-  EXPECT_THAT(
-      told({"coarse.near.max=3m"}),
-      HasSubstr(
-          "--set coarse.near.max=3m: 'coarse.near.max' is driven by the row 'gate' of 'coarse'"));
-  EXPECT_THAT(told({"coarse.near.max=3m"}), HasSubstr("Set the row instead: coarse.gate."));
+TEST_F(Overlays, SetWhatARowOrAParameterOfThePipelineFeeds) {
+  const Plan plan = read({"coarse.near.max=3m", "segments.leaf=0.2m"});
+  EXPECT_EQ(value(plan, "coarse.near", "max"), ParameterValue(3.0));
+  EXPECT_EQ(plan.repeats[0].passes, 3) << "the row says how many, still";
+  EXPECT_EQ(value(plan, "segments", "leaf"), ParameterValue(0.2));
+  EXPECT_THAT(plan.resolved, HasSubstr("# nothing uses it any more"));
+  EXPECT_THAT(plan.resolved, HasSubstr(", nothing uses it any more"));
+  EXPECT_THAT(passes_table(plan), HasSubstr("     1     -\n"));
+  const Plan again = read_resolved(plan.resolved, "resolved", test::registry());
+  EXPECT_EQ(value(again, "segments", "leaf"), ParameterValue(0.2));
+}
+
+TEST_F(Overlays, LeaveParametersAndRowsOfTheBaseWithoutAUse) {
+  folder_.write("p.yaml",
+                "plumb: 1\nextends: cascade.yaml\nset: {segments.leaf: 1 m, coarse.near.max: 2 "
+                "m}\n");
+  EXPECT_EQ(value(read({}, {"p.yaml"}), "segments", "leaf"), ParameterValue(1.0));
+  EXPECT_THAT(told({"voxel=2m"}, {"p.yaml"}),
+              HasSubstr("--set voxel=2m: nothing uses the parameter 'voxel' any more, so that this "
+                        "sets nothing."));
+  EXPECT_THAT(told({"coarse.gate=2m"}, {"p.yaml"}),
+              HasSubstr("--set coarse.gate=2m: nothing uses the row 'coarse.gate' any more"));
+  folder_.write("base.yaml",
+                std::string(cascade).replace(std::string(cascade).find("parameters:"), 11,
+                                             "parameters:\n  spare: {type: "
+                                             "length, default: 1 m}"));
+  folder_.write("q.yaml", "plumb: 1\nextends: base.yaml\nset: {segments.leaf: 1 m}\n");
+  try {
+    read_pipeline(folder_.path() / "q.yaml", {{}, {"input=data"}, false}, test::registry());
+    FAIL() << "what nothing ever used is the base's own mistake";
+  } catch (const PipelineError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("base.yaml:"));
+    EXPECT_THAT(error.what(), HasSubstr("nothing uses the parameter 'spare'."));
+    EXPECT_EQ(error.diagnostics().size(), 1u);
+  }
+}
+
+TEST_F(Overlays, RemoveParametersRowsAndWhatAStepIsGiven) {
+  folder_.write("p.yaml",
+                "plumb: 1\nextends: cascade.yaml\nremove: [coarse.near.max, coarse.gate, "
+                "segments.leaf, voxel]\nset: {coarse.at_most: 2}\n");
+  const std::string all = told({}, {"p.yaml"});
+  EXPECT_THAT(all, Not(HasSubstr("cannot be removed")));
+  EXPECT_THAT(all, Not(HasSubstr("there is no")));
+  folder_.write("q.yaml", "plumb: 1\nextends: cascade.yaml\nremove: [ranges.frames]\n");
+  EXPECT_EQ(value(read({}, {"q.yaml"}), "ranges", "frames"),
+            step(read({}), "ranges")->description->parameter("frames")->standard);
+  folder_.write("r.yaml",
+                "plumb: 1\nextends: cascade.yaml\nremove: [voxle, coarse.gaet, ranges.fraems]\n");
+  EXPECT_THAT(told({}, {"r.yaml"}), HasSubstr("r.yaml:3:10: 'voxle': there is no 'voxle' in the "
+                                              "pipeline.\n"));
+  EXPECT_THAT(told({}, {"r.yaml"}), HasSubstr("Did you mean 'voxel'?"));
+  EXPECT_THAT(told({}, {"r.yaml"}),
+              HasSubstr("'ranges.fraems' cannot be removed: the step is not given 'fraems'."));
 }
 
 TEST_F(Overlays, NameWhatCannotBeSet) {

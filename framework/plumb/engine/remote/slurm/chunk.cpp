@@ -31,7 +31,7 @@ void make_chunk(const std::filesystem::path& file, std::size_t number, std::size
     const std::lock_guard lock(mutex);
     out.write(reinterpret_cast<const char*>(&length), sizeof length);
     out.write(bytes.data(), static_cast<std::streamsize>(length));
-    if (!out.flush()) throw Error(to.string() + ": cannot be written; is the store's disk full?");
+    if (!out.flush()) throw Error(to.string() + ": cannot be written; is the cache's disk full?");
   };
   options.tries = 1;  // the driver decides over a second one
   WorkerPool pool(std::move(options));

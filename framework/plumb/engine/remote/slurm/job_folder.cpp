@@ -16,7 +16,7 @@ namespace {
 void write_file(const fs::path& file, const std::string& bytes) {
   if (!replace_whole(file, bytes))
     throw Error(file.string() + ": cannot be written (" + std::strerror(errno) +
-                "); is the store's disk full?");
+                "); is the cache's disk full?");
 }
 
 std::string text_of(const fs::path& file) { return std::string(MappedFile(file).bytes()); }

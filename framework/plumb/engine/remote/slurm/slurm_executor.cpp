@@ -207,7 +207,7 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
         unanswered = 0;
       else if ((unanswered += pause) >= patience)
         run.say("Slurm does not answer; waiting for its job " + job +
-                ", whose results count once they are in the store");
+                ", whose results count once they are in the cache");
       std::this_thread::sleep_for(std::chrono::duration<double>(pause));
       pause = std::min(pause * 1.5, options_.profile.poll);
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// `--isolate`: all calls are made by worker processes on this machine.
+/// `--executor process`: all calls are made by worker processes on this machine.
 
 #include "plumb/engine/remote/worker/pool.hpp"
 #include "plumb/engine/run/step_run.hpp"
