@@ -37,7 +37,7 @@ const Type& type_of<Trajectory>();
 template <>
 const Type& type_of<Frame>();
 template <>
-const Type& type_of<Range>();
+const Type& type_of<FrameRange>();
 template <>
 const Type& type_of<Segment>();
 template <>
@@ -49,7 +49,7 @@ const Type& type_of<Edges>();
 template <>
 const Type& type_of<Matches>();
 template <>
-const Type& type_of<Relations>();
+const Type& type_of<Constraints>();
 template <>
 const Type& type_of<Poses>();
 template <>

@@ -18,7 +18,7 @@ namespace plumb {
 /// where one segment ends, and one rigid motion of all stays exactly that. Before the first middle
 /// and behind the last a frame moves with its segment. Throws Error when there are not as many
 /// poses as ranges, or the ranges do not cover the trajectory frame by frame.
-Trajectory corrected(const Trajectory& trajectory, const std::vector<Range>& ranges,
+Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
                      const Poses& poses, bool blend);
 
 }  // namespace plumb

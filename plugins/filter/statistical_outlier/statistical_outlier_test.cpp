@@ -31,9 +31,9 @@ void backwards(std::size_t n, const std::function<void(std::size_t)>& body) {
   while (n > 0) body(--n);
 }
 
-std::vector<float> means(const Cloud& cloud, std::size_t neighbours,
+std::vector<float> means(const Cloud& cloud, std::size_t mean_k,
                          const ParallelFor& parallel = one_after_the_other) {
-  return mean_distances(cloud, SearchTree(cloud), neighbours, parallel);
+  return mean_distances(cloud, SearchTree(cloud), mean_k, parallel);
 }
 
 /// A wall of points of uneven density, and some points in the air before it.

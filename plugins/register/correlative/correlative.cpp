@@ -25,12 +25,12 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                             const CorrelativeOptions& options) {
   CorrelativeResult result;
   result.T = start;
-  const Places onto = within_range(target, options.range),
-               laid = within_range(source, options.range);
+  const Places onto = within_range(target, options.max_range),
+               laid = within_range(source, options.max_range);
   if (onto.x.empty() || laid.x.empty()) return result;
 
   const bool known = start.x != 0 || start.y != 0 || start.yaw != 0;
-  const Trust trust{start, known ? options.trust : 0, options.trust_distance, options.trust_turn};
+  const Prior prior{start, known ? options.prior_weight : 0, options.prior_translation_sigma, options.prior_rotation_sigma};
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
@@ -38,11 +38,11 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                                levels);
   const double step = yaw_step_for(laid.x, laid.y, options.resolution);
   auto peak = best_pose(coarse, laid.x, laid.y,
-                        {start, options.reach, options.reach, options.turn, trust}, step, 0);
+                        {start, options.search_window, options.search_window, options.search_angle, prior}, step, 0);
   if (!peak || peak->score < options.retry_below) {
     result.retried = true;
     const auto wider = best_pose(coarse, laid.x, laid.y,
-                                 {start, options.retry_reach, options.retry_reach, M_PI, trust},
+                                 {start, options.retry_search_window, options.retry_search_window, M_PI, prior},
                                  step, peak ? peak->score : 0);
     if (wider) peak = wider;
   }
@@ -53,10 +53,10 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                              3 * options.fine_sigma, 3);
   result.yaw_step = std::min(yaw_step_for(laid.x, laid.y, options.fine_resolution), step);
   const double room = 1.2 * options.resolution;
-  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, trust},
+  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, prior},
                               result.yaw_step, 0);
   result.T =
-      best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, trust) : peak->pose;
+      best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, prior) : peak->pose;
   return result;
 }
 

@@ -87,7 +87,7 @@ TEST(PoseGraph, SurvivesLoopsOfWhichHalfAreMostlyWrong) {
     auto g = circle(40, 2, seed);
     plant_false_loops(g, 2, seed);
     auto options = robust();
-    options.edge_weight = 30;
+    options.max_edge_weight = 30;
     EXPECT_LT(ate(solve(g, options).poses, g.truth), 0.15) << seed;
   }
 }
@@ -118,8 +118,8 @@ TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
             0.1);
   // With the odometry's shape as a prior it is one graph.
   auto options = robust();
-  options.odometry_translation = 0.1;
-  options.odometry_rotation = 0.01;
+  options.odometry_translation_sigma = 0.1;
+  options.odometry_rotation_sigma = 0.01;
   EXPECT_TRUE(solve(g, options).warnings.empty());
 }
 
@@ -131,8 +131,8 @@ TEST(PoseGraph, TheOdometryHoldsTheShapeWhereSequentialPairsAreFewAndWrong) {
       g.matches[k] = pairs_of(g.edges[k], g.truth, 4, 2, 0, random);
   auto options = robust();
   const double without = ate(solve(g, options).poses, g.truth);
-  options.odometry_translation = 0.05;
-  options.odometry_rotation = 0.003;
+  options.odometry_translation_sigma = 0.05;
+  options.odometry_rotation_sigma = 0.003;
   const double with = ate(solve(g, options).poses, g.truth);
   EXPECT_LT(with, 0.5 * without);
 }

@@ -32,7 +32,7 @@ void Verdict::add(const RelativePose& r, bool sequential, double residual, doubl
   records_.push_back({r.i, r.j, kind, 1, 1, residual, weight, fate_of(weight)});
   squares_ += weight * residual * residual;
   weights_ += weight;
-  relations_ = true;
+  constraints_ = true;
 }
 
 Metrics Verdict::metrics(double cost_before, double cost_after, int rounds, int iterations) {
@@ -72,7 +72,7 @@ std::vector<std::string> Verdict::notes() const {
   drop_left_out(parts);
   if (!left_out_.empty())
     notes.push_back("segments " + runs_of(left_out_) +
-                    " are named by no relation and keep their place after the one before");
+                    " are named by no constraint and keep their place after the one before");
   if (prior_ && parts.size() > 1) {
     std::string sentence = "the graph falls into " + std::to_string(parts.size()) +
                            " parts that only the odometry joins (segments ";
@@ -83,7 +83,7 @@ std::vector<std::string> Verdict::notes() const {
   for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
     notes.push_back("segments " + runs_of(parts[n]) +
                     " are not joined to the rest by any edge that was kept");
-  if (relations_) return notes;
+  if (constraints_) return notes;
   std::vector<std::uint32_t> weak;
   for (std::uint32_t v = 0; v < support_.size(); ++v)
     if (support_[v] < 10) weak.push_back(v);
@@ -106,8 +106,8 @@ std::vector<std::string> Verdict::warnings(std::vector<std::vector<std::uint32_t
   }
   return {sentence +
           "), which no edge with pairs joins: each is solved by itself and keeps its place "
-          "after the segment before it; give more edges, or odometry_translation and "
-          "odometry_rotation"};
+          "after the segment before it; give more edges, or odometry_translation_sigma and "
+          "odometry_rotation_sigma"};
 }
 
 }  // namespace plumb

@@ -14,8 +14,8 @@ class Verdict {
  public:
   explicit Verdict(std::size_t poses) : support_(poses, 0.0) {}
   void add(const EdgeState& edge);
-  /// A relation with the distance [m] that is left, and its robust weight.
-  void add(const RelativePose& relation, bool sequential, double residual, double weight);
+  /// A constraint with the distance [m] that is left, and its robust weight.
+  void add(const RelativePose& constraint, bool sequential, double residual, double weight);
   /// Poses in order that nothing names, as of dropped scans: they are a note, not parts of their
   /// own.
   void left_out(std::vector<std::uint32_t> poses) { left_out_ = std::move(poses); }
@@ -34,7 +34,7 @@ class Verdict {
   std::vector<std::uint32_t> left_out_;
   double squares_ = 0, weights_ = 0;
   std::uint64_t pairs_ = 0;
-  bool relations_ = false, prior_ = false;
+  bool constraints_ = false, prior_ = false;
 };
 
 }  // namespace plumb

@@ -29,16 +29,13 @@ struct Carmen : WholeStep {
 
   static void describe(Declaration<Carmen>& is) {
     is.name("source.carmen").version(1).source("CARMEN's log format");
-    is.summary(
-        "Reads the scans of a 2-D laser and their odometry from a CARMEN log, packed or not.");
-    is.output("frames", &Out::frames, "one scan a frame: points in the laser's coordinates, z = 0");
+    is.summary("Reads the scans of a 2-D laser and their odometry from a CARMEN log, which may be compressed.");
+    is.output("frames", &Out::frames, "one scan per frame: points in the laser's coordinates, z = 0");
     is.output("trajectory", &Out::trajectory,
               "stamp and pose of the laser for every scan, in the order of the file");
     is.param("path", &Params::path)
         .required()
-        .doc(
-            "log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are "
-            "unpacked");
+        .doc("log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are decompressed");
     is.choice("odometry", &Params::odometry,
               {{"use", Odometry::use, "poses as the wheels gave them"},
                {"ignore", Odometry::ignore, "every pose is the identity; stamps are kept"}})
@@ -46,17 +43,15 @@ struct Carmen : WholeStep {
     is.param("min_range", &Params::min_range)
         .unit("m")
         .range(0, 100)
-        .doc("nearer readings are dropped: nothing came back, or the robot saw itself");
+        .doc("nearer readings are dropped: no return, or the robot itself");
     is.param("max_range", &Params::max_range)
         .unit("m")
         .range(0.01, 1000)
-        .doc("readings from here on saw nothing and are dropped; none: found from the log");
+        .doc("readings at or beyond this distance are no return and are dropped; none: found from the log");
     is.param("field_of_view", &Params::field_of_view)
         .unit("rad")
-        .range(1e-3, 6.2831853071795862)
-        .doc(
-            "angle from the first beam to the last, centred ahead; none: as the log says, or "
-            "CARMEN's convention");
+        .range(0.05 * deg, 360 * deg)
+        .doc("angle from the first beam to the last, centred ahead; none: as the log says, or CARMEN's convention");
   }
 
   Out run(const In&, const Params& params, Context& context) const {

@@ -19,13 +19,13 @@ struct MulRan : WholeStep {
     std::filesystem::path path;
     std::optional<std::filesystem::path> trajectory;
     Body poses_of = Body::sensor;
-    double most_gap = 1;
+    double max_time_gap = 1;
   };
 
   static void describe(Declaration<MulRan>& is) {
     is.name("source.mulran").version(1).source("[Kim2020]");
-    is.summary("Reads laser scans of the MulRan data set and a trajectory with other stamps.");
-    is.output("frames", &Out::frames, "one laser scan a frame, read when it is needed");
+    is.summary("Reads laser scans of the MulRan data set and a trajectory with its own stamps.");
+    is.output("frames", &Out::frames, "one laser scan per frame, read on demand");
     is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
     is.param("path", &Params::path)
         .required()
@@ -37,17 +37,17 @@ struct MulRan : WholeStep {
     is.choice("poses_of", &Params::poses_of,
               {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
                {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})
-        .doc("what the trajectory's poses are those of");
-    is.param("most_gap", &Params::most_gap)
+        .doc("the body whose poses the trajectory holds");
+    is.param("max_time_gap", &Params::max_time_gap)
         .unit("s")
         .range(0, 3600)
-        .doc("time between two poses up to which scans between them are kept");
+        .doc("time between two poses up to which scans between them are interpolated and kept");
   }
 
   Out run(const In&, const Params& params, Context& context) const {
     const auto scans = scans_of(params.path);
     const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
-    auto placing = placed(scans, read_trajectory(poses_from), params.most_gap);
+    auto placing = placed(scans, read_trajectory(poses_from), params.max_time_gap);
     if (placing.outside)
       context.count("frames outside the trajectory's time left out", placing.outside);
     if (placing.in_gap) context.count("frames in gaps of the trajectory left out", placing.in_gap);

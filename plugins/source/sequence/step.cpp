@@ -26,15 +26,14 @@ struct Sequence : WholeStep {
 
   static void describe(Declaration<Sequence>& is) {
     is.name("source.sequence").version(1).source("Plumb");
-    is.summary("Reads a folder of PCD or PLY frames and the trajectory that the SLAM gave them.");
-    is.output("frames", &Out::frames,
-              "one cloud a frame, in sensor coordinates, read when it is needed");
+    is.summary("Reads a folder of PCD or PLY frames and their SLAM trajectory.");
+    is.output("frames", &Out::frames, "one cloud per frame, in sensor coordinates, read on demand");
     is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
     is.param("path", &Params::path)
         .required()
         .doc("folder with frames/*.pcd or *.ply, or frames.txt, a list of them");
     is.param("trajectory", &Params::trajectory)
-        .doc("TUM file with one pose a frame; none: odometry.tum in the folder");
+        .doc("TUM file with one pose per frame; none: odometry.tum in the folder");
     is.choice("coordinates", &Params::coordinates,
               {{"sensor", Coordinates::sensor, "the clouds are as the sensor saw them"},
                {"world", Coordinates::world,
