@@ -75,11 +75,12 @@ const char* fault_of_edge(const Edge& edge) {
   return "";
 }
 const char* fault_of_relative(const RelativePose& constraint) {
-  return constraint.information.allFinite() ? fault_of_pose(constraint.T_i_j) : information_not_finite;
+  return constraint.information.allFinite() ? fault_of_pose(constraint.T_i_j)
+                                            : information_not_finite;
 }
 const char* fault_of_absolute(const AbsolutePose& constraint) {
   return constraint.information.allFinite() ? fault_of_pose(constraint.T_world_i)
-                                          : information_not_finite;
+                                            : information_not_finite;
 }
 const char* fault_of_point(const AbsolutePoint& constraint) {
   if (!constraint.information.allFinite()) return information_not_finite;
@@ -168,8 +169,10 @@ const char* fault_in(const Registration& registration) {
 }
 
 const char* fault_in(const Constraints& constraints) {
-  if (const char* fault = fault_of_all(constraints.relative, fault_of_relative); *fault) return fault;
-  if (const char* fault = fault_of_all(constraints.absolute, fault_of_absolute); *fault) return fault;
+  if (const char* fault = fault_of_all(constraints.relative, fault_of_relative); *fault)
+    return fault;
+  if (const char* fault = fault_of_all(constraints.absolute, fault_of_absolute); *fault)
+    return fault;
   return fault_of_all(constraints.points, fault_of_point);
 }
 

@@ -151,11 +151,12 @@ TEST(Fault, GridsHaveTheCellsThatTheySay) {
 TEST(Fault, ConstraintsAndRegistrationsAreFinite) {
   Constraints constraints;
   constraints.relative.resize(1), constraints.absolute.resize(1), constraints.points.resize(1);
-  EXPECT_THAT(fault_after(constraints, [](Constraints& r) { r.relative[0].information(0, 3) = nan; }),
-              HasSubstr("information"));
   EXPECT_THAT(
-      fault_after(constraints, [](Constraints& r) { r.absolute[0].T_world_i.translation.z() = nan; }),
-      HasSubstr("pose"));
+      fault_after(constraints, [](Constraints& r) { r.relative[0].information(0, 3) = nan; }),
+      HasSubstr("information"));
+  EXPECT_THAT(fault_after(constraints,
+                          [](Constraints& r) { r.absolute[0].T_world_i.translation.z() = nan; }),
+              HasSubstr("pose"));
   EXPECT_THAT(fault_after(constraints, [](Constraints& r) { r.points[0].p_world.x() = infinity; }),
               HasSubstr("point"));
   EXPECT_THAT(fault_after(Registration(), [](Registration& r) { r.information(5, 5) = infinity; }),

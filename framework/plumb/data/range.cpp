@@ -9,7 +9,7 @@ namespace plumb {
 FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t end) {
   if (first >= end || end > trajectory.size())
     throw Error("frames " + std::to_string(first) + " to " + std::to_string(end) +
-                " (not included) are no range of a trajectory of " +
+                " (not included) are not a range of a trajectory of " +
                 std::to_string(trajectory.size()) + " poses");
   constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
   if (end - first > most)
@@ -29,7 +29,7 @@ FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t
 }
 
 std::vector<FrameRange> ranges_from(const Trajectory& trajectory,
-                               const std::vector<std::size_t>& starts) {
+                                    const std::vector<std::size_t>& starts) {
   std::vector<FrameRange> ranges;
   ranges.reserve(starts.size());
   for (std::size_t k = 0; k < starts.size(); ++k)

@@ -15,7 +15,7 @@ FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t
 /// The ranges that begin at frames `starts` (rising, the first one 0) and together cover the
 /// trajectory. Errors as range_of.
 std::vector<FrameRange> ranges_from(const Trajectory& trajectory,
-                               const std::vector<std::size_t>& starts);
+                                    const std::vector<std::size_t>& starts);
 
 /// Where the ranges' segments are, as the odometry has it.
 Poses poses_of(const std::vector<FrameRange>& ranges);

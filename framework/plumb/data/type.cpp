@@ -82,10 +82,11 @@ PLUMB_TYPE(Document, 1, whole)
 
 const Type* find_type(std::string_view name) {
   static const std::array<const Type*, 14> all = {
-      &type_of<Trajectory>(),   &type_of<Frame>(),     &type_of<FrameRange>(), &type_of<Segment>(),
-      &type_of<Descriptor>(),   &type_of<Features>(),  &type_of<Edges>(), &type_of<Matches>(),
-      &type_of<Registration>(), &type_of<Constraints>(), &type_of<Poses>(), &type_of<GridMap>(),
-      &type_of<Metrics>(),      &type_of<Document>()};
+      &type_of<Trajectory>(),  &type_of<Frame>(),      &type_of<FrameRange>(),
+      &type_of<Segment>(),     &type_of<Descriptor>(), &type_of<Features>(),
+      &type_of<Edges>(),       &type_of<Matches>(),    &type_of<Registration>(),
+      &type_of<Constraints>(), &type_of<Poses>(),      &type_of<GridMap>(),
+      &type_of<Metrics>(),     &type_of<Document>()};
   for (const Type* type : all)
     if (name == type->name) return type;
   return nullptr;

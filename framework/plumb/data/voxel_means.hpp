@@ -28,7 +28,7 @@ class VoxelMeans {
     Cloud cloud;  ///< x y z, and intensity and normals where all clouds with points had them
     std::vector<std::uint16_t>
         frame;  ///< of each mean: the frame of that of its points which was seen from nearest
-    std::size_t dropped = 0;  ///< points left out because a coordinate is no finite number
+    std::size_t dropped = 0;  ///< points left out because a coordinate is non-finite
   };
   /// The means in the order in which their cells were first met. Sums are double. Normals are
   /// averaged and scaled to length 1; where they cancel out, the cell's first one stands. Asked

@@ -19,7 +19,8 @@ struct Prior {
 
   /// What it takes from the score of `other`.
   double lost(const PlanarPose& other) const {
-    const double dx = (other.x - pose.x) / translation_sigma, dy = (other.y - pose.y) / translation_sigma;
+    const double dx = (other.x - pose.x) / translation_sigma,
+                 dy = (other.y - pose.y) / translation_sigma;
     const double turn = wrapped(other.yaw - pose.yaw) / rotation_sigma;
     const double square = dx * dx + dy * dy + turn * turn;
     return weight * square / (1 + square);

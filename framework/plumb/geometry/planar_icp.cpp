@@ -148,7 +148,8 @@ class Icp {
     turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(result_.T.yaw).toRotationMatrix();
     Eigen::Matrix3d all =
         turn.transpose() * h * turn / (options_.noise * options_.noise * points_that_count_as_one);
-    if (options_.start_sigma) all.diagonal() += Eigen::Vector3d(1, 1, 9) * std::pow(*options_.start_sigma, -2);
+    if (options_.start_sigma)
+      all.diagonal() += Eigen::Vector3d(1, 1, 9) * std::pow(*options_.start_sigma, -2);
     return all;
   }
 
@@ -164,7 +165,7 @@ class Icp {
 }  // namespace
 
 IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
-                   const PlanarPose& start, const IcpOptions& options) {
+                const PlanarPose& start, const IcpOptions& options) {
   return Icp(target, tree, source, start, options).run();
 }
 

@@ -37,11 +37,11 @@ struct IcpOptions {
   Metric metric = Metric::point;
   double change = 1e-4;
   double ratio = 0.95;
-  double max_correspondence_distance = 0.3;            ///< [m] farthest that a pair may be apart
-  std::uint32_t max_iterations = 50;///< at most
-  double noise = 0.03;            ///< [m] standard deviation of a pair's residual
-  std::optional<double> start_sigma;  ///< [m] standard deviation of the start's place; its heading's is a
-                               ///< third of that in rad. Metric::line only
+  double max_correspondence_distance = 0.3;  ///< [m] farthest that a pair may be apart
+  std::uint32_t max_iterations = 50;         ///< at most
+  double noise = 0.03;                       ///< [m] standard deviation of a pair's residual
+  std::optional<double> start_sigma;         ///< [m] standard deviation of the start's place; its
+                                      ///< heading's is a third of that in rad. Metric::line only
 };
 
 struct IcpResult {
@@ -58,6 +58,6 @@ struct IcpResult {
 /// point (`tree` holds the target's points, with z = 0). Fewer than 3 pairs: the pose stays as it
 /// is and overlap says so. With 0 iterations the start is only judged.
 IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
-                   const PlanarPose& start, const IcpOptions& options);
+                const PlanarPose& start, const IcpOptions& options);
 
 }  // namespace plumb

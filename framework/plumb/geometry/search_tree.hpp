@@ -10,7 +10,7 @@
 namespace plumb {
 
 /// Finds neighbours among points given as three arrays [m], which it copies. Points with a
-/// coordinate that is no finite number are never found. Squared distances are ((dx*dx + dy*dy) +
+/// coordinate that is non-finite are never found. Squared distances are ((dx*dx + dy*dy) +
 /// dz*dz) in float; of equally near points the one with the lower index comes first, so results
 /// depend on nothing but the points. All queries are const and safe to call from many threads.
 class SearchTree {

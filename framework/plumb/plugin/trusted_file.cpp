@@ -49,7 +49,7 @@ std::string fault_of_folder(const fs::path& folder) {
   std::error_code error;
   const fs::path real = fs::canonical(folder, error);
   if (error) return "there is no such folder";
-  return fs::is_directory(real) ? fault_above(real, folder) : "is no folder";
+  return fs::is_directory(real) ? fault_above(real, folder) : "is not a directory";
 }
 
 std::string fault_of_file(const fs::path& file) {

@@ -67,7 +67,7 @@ void Store::refuse_unwritable(int why) const {
 /// For this user alone, where it is not there yet; a folder that is empty stays as it is.
 void Store::make_folder(StoreRole role) const {
   if (role == StoreRole::worker)
-    refuse("there is no store; a worker must see the folder of its run at the same place");
+    refuse("there is not a store; a worker must see the folder of its run at the same place");
   std::error_code error;
   const fs::path marked = folder_ / mark_file;
   if (fs::is_directory(folder_, error) && access(folder_.c_str(), R_OK | W_OK | X_OK) != 0)
@@ -75,7 +75,7 @@ void Store::make_folder(StoreRole role) const {
   // Another run may be making it at this moment: its mark is there before anything else is.
   if (fs::exists(folder_, error) &&
       (!fs::is_directory(folder_) || holds_more_than_marks(folder_)) && !fs::exists(marked, error))
-    refuse("holds something else and is no store; give a folder that is new or empty");
+    refuse("holds something else and is not a store; give a folder that is new or empty");
   fs::create_directories(folder_.parent_path(), error);
   if (error) refuse_unwritable(error.value());
   if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) refuse_unwritable(errno);
@@ -126,10 +126,10 @@ void Store::require_folders() const {
     const fs::path folder = folder_ / inner;
     if (mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) refuse_unwritable(errno);
     if (!fs::is_directory(fs::symlink_status(folder, error)))
-      refuse(std::string("its '") + inner + "' is no folder of its own; give another folder");
+      refuse(std::string("its '") + inner + "' is not a directory of its own; give another folder");
   }
   if (fs::is_symlink(folder_ / "jobs", error))
-    refuse("its 'jobs' is no folder of its own; give another folder");
+    refuse("its 'jobs' is not a directory of its own; give another folder");
   for (fs::directory_iterator part(folder_ / "blobs", error), end; !error && part != end;
        part.increment(error))
     if (part->is_symlink())

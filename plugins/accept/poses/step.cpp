@@ -33,14 +33,19 @@ struct AcceptPoses : WholeStep {
 
   static void describe(Declaration<AcceptPoses>& is) {
     is.name("accept.poses").version(1).source("ours");
-    is.summary("Keeps a stage's new poses only if the clouds, judged on points selected anew, agree at least as well as before.");
+    is.summary(
+        "Keeps a stage's new poses only if the clouds, judged on points selected anew, agree at "
+        "least as well as before.");
     is.input("before", &In::before, "poses of the segments before the stage");
     is.input("after", &In::after, "poses of the segments after the stage");
     is.input("edges", &In::edges, "pairs of segments that should agree");
     is.input("segments", &In::segments, "their clouds, preferably with normals");
     is.scale(&In::scale);
-    is.output("poses", &Out::poses, "'after', or 'before' where the stage made the agreement worse, which is noted");
-    is.output("metrics", &Out::metrics, "1 if accepted, else 0; mean distances before and after, along the path and between visits");
+    is.output("poses", &Out::poses,
+              "'after', or 'before' where the stage made the agreement worse, which is noted");
+    is.output("metrics", &Out::metrics,
+              "1 if accepted, else 0; mean distances before and after, along the path and between "
+              "visits");
     is.param("max_distance", &Params::max_distance)
         .unit("m")
         .range(1e-3, 1000)

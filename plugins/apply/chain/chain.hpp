@@ -9,8 +9,8 @@
 namespace plumb {
 
 struct ChainOptions {
-  double weak_translation_sigma = 0.5;  ///< [m] standard deviation of what was not registered
-  double weak_rotation_sigma = 30 * deg;     ///< [rad] of its rotation
+  double weak_translation_sigma = 0.5;    ///< [m] standard deviation of what was not registered
+  double weak_rotation_sigma = 30 * deg;  ///< [rad] of its rotation
 };
 
 struct Chained {

@@ -23,14 +23,19 @@ struct ApplyChain : WholeStep {
     is.name("apply.chain").version(1).source("[Zhang2023] 2");
     is.summary("Composes the registrations of consecutive segments into a trajectory.");
     is.input("poses", &In::poses, "poses of the segments from odometry");
-    is.input("registrations", &In::registrations, "registration of each segment of a chain to an earlier one");
-    is.output("poses", &Out::poses, "corrected poses of the segments; those without an edge are interpolated");
+    is.input("registrations", &In::registrations,
+             "registration of each segment of a chain to an earlier one");
+    is.output("poses", &Out::poses,
+              "corrected poses of the segments; those without an edge are interpolated");
     is.output("constraints", &Out::constraints, "the registrations, for solve.pose_graph");
-    is.output("metrics", &Out::metrics, "number of registrations; means of their iterations, distances and overlap");
+    is.output("metrics", &Out::metrics,
+              "number of registrations; means of their iterations, distances and overlap");
     is.param("weak_translation_sigma", &Params::weak_translation_sigma)
         .unit("m")
         .range(1e-4, 1000)
-        .doc("standard deviation of the translation of a constraint whose registration was not accepted");
+        .doc(
+            "standard deviation of the translation of a constraint whose registration was not "
+            "accepted");
     is.param("weak_rotation_sigma", &Params::weak_rotation_sigma)
         .unit("rad")
         .range(0.001 * deg, 360 * deg)

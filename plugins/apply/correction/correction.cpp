@@ -5,7 +5,8 @@
 namespace plumb {
 namespace {
 
-void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges, const Poses& poses) {
+void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
+           const Poses& poses) {
   if (poses.size() != ranges.size())
     throw Error("there are " + std::to_string(poses.size()) + " poses but " +
                 std::to_string(ranges.size()) +

@@ -28,7 +28,9 @@ struct ApplyCorrection : WholeStep {
     is.input("poses", &In::poses, "the new poses of the segments");
     is.output("trajectory", &Out::trajectory, "the corrected poses of all frames");
     is.param("blend", &Params::blend)
-        .doc("interpolate between the corrections of neighbouring segments, so that the trajectory stays smooth");
+        .doc(
+            "interpolate between the corrections of neighbouring segments, so that the trajectory "
+            "stays smooth");
   }
 
   Out run(const In& in, const Params& params, Context&) const {

@@ -36,12 +36,18 @@ struct CheckOdometry : WholeStep {
 
   static void describe(Declaration<CheckOdometry>& is) {
     is.name("check.odometry").version(1).source("ours");
-    is.summary("Finds where the odometry contradicts the scans (jumps, standstills, wrong scale or rotation) and replaces it by scan-to-scan registration there.");
+    is.summary(
+        "Finds where the odometry contradicts the scans (jumps, standstills, wrong scale or "
+        "rotation) and replaces it by scan-to-scan registration there.");
     is.input("frames", &In::frames, "the scans");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
     is.scale(&In::scale);
-    is.output("trajectory", &Out::trajectory, "the odometry; where it is contradicted, with the motions from scan-to-scan registration");
-    is.output("metrics", &Out::metrics, "pairs compared and contradicted; a note for each contradicted stretch, with frames and times");
+    is.output(
+        "trajectory", &Out::trajectory,
+        "the odometry; where it is contradicted, with the motions from scan-to-scan registration");
+    is.output("metrics", &Out::metrics,
+              "pairs compared and contradicted; a note for each contradicted stretch, with frames "
+              "and times");
     is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.01, 100)
@@ -56,14 +62,18 @@ struct CheckOdometry : WholeStep {
     is.param("min_path_length", &Params::min_path_length)
         .unit("m")
         .range(0, 1e6)
-        .doc("path between two scans that are compared; a frame counts for at least the motion that three quarters of the frames exceed");
+        .doc(
+            "path between two scans that are compared; a frame counts for at least the motion that "
+            "three quarters of the frames exceed");
     is.param("max_frames", &Params::max_frames)
         .range(1, 1e6)
         .doc("frames between two scans that are compared");
     is.param("max_misfit_ratio", &Params::max_misfit_ratio)
         .unit("%")
         .range(0, 1)
-        .doc("the odometry is contradicted where another motion's misfit is at most this share of its own");
+        .doc(
+            "the odometry is contradicted where another motion's misfit is at most this share of "
+            "its own");
     is.param("min_translation", &Params::min_translation)
         .unit("m")
         .range(0, 1000)
@@ -74,7 +84,9 @@ struct CheckOdometry : WholeStep {
         .doc("... by this rotation");
     is.param("single_factor", &Params::single_factor)
         .range(1, 1000)
-        .doc("where a single pair in a row is contradicted, it must differ by this multiple of the two bounds");
+        .doc(
+            "where a single pair in a row is contradicted, it must differ by this multiple of the "
+            "two bounds");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -234,8 +234,8 @@ TEST(ConstrainOdometry, RefusesPosesAndRangesOfOtherSegments) {
   TestContext context;
   Poses registered = middles();
   registered.T_world_segment.pop_back();
-  const auto other_poses =
-      refusal([&] { wired().with("registered", registered).run<Constraints>("constraints", context); });
+  const auto other_poses = refusal(
+      [&] { wired().with("registered", registered).run<Constraints>("constraints", context); });
   EXPECT_THAT(other_poses, HasSubstr("4 segments and 3 registered poses"));
   auto far = ranges();
   far[3].end = 13;

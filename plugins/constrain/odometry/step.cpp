@@ -24,16 +24,22 @@ struct ConstrainOdometry : WholeStep {
 
   static void describe(Declaration<ConstrainOdometry>& is) {
     is.name("constrain.odometry").version(1).source("ours");
-    is.summary("Makes relative-pose constraints of the odometry's motions, weighted by the odometry's accuracy.");
+    is.summary(
+        "Makes relative-pose constraints of the odometry's motions, weighted by the odometry's "
+        "accuracy.");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
     is.input(
         "ranges", &In::ranges,
         "the frames of each segment, cut from this or any other trajectory of the same frames");
-    is.optional_input("registered", &In::registered, "poses of the same segments after registration of neighbours: the odometry's accuracy is measured against them, axis by axis");
+    is.optional_input("registered", &In::registered,
+                      "poses of the same segments after registration of neighbours: the odometry's "
+                      "accuracy is measured against them, axis by axis");
     is.scale(&In::scale);
     is.output("constraints", &Out::constraints,
               "the motion from each segment to the next, with its information");
-    is.output("metrics", &Out::metrics, "median standard deviations that were used, and how many motions contradict the registrations");
+    is.output("metrics", &Out::metrics,
+              "median standard deviations that were used, and how many motions contradict the "
+              "registrations");
     is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre))
         .unit("%")
         .range(1e-6, 10)
@@ -56,10 +62,14 @@ struct ConstrainOdometry : WholeStep {
         .doc("standard deviation of the rotation at rest");
     is.param("max_factor", &Params::max_factor)
         .range(1, 1e6)
-        .doc("with 'registered': the standard deviations are scaled to the observed differences, up or down by at most this factor");
+        .doc(
+            "with 'registered': the standard deviations are scaled to the observed differences, up "
+            "or down by at most this factor");
     is.param("max_deviation", &Params::max_deviation)
         .range(1, 1e6)
-        .doc("with 'registered': a motion that differs by more standard deviations gets that difference as its standard deviation");
+        .doc(
+            "with 'registered': a motion that differs by more standard deviations gets that "
+            "difference as its standard deviation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

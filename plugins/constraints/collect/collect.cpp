@@ -3,7 +3,7 @@
 namespace plumb {
 
 Constraints collected(const Edges& edges, std::span<const Registration> registrations,
-                    double inflate) {
+                      double inflate) {
   Constraints constraints;
   constraints.planar = true;
   for (std::size_t k = 0; k < edges.size(); ++k) {

@@ -8,10 +8,10 @@
 
 namespace plumb {
 
-/// One constraint for each accepted registration that knows something (its information is not zero),
-/// with the standard deviations multiplied by `inflate`. Planar when there is one and none leaves
-/// the plane.
+/// One constraint for each accepted registration that knows something (its information is not
+/// zero), with the standard deviations multiplied by `inflate`. Planar when there is one and none
+/// leaves the plane.
 Constraints collected(const Edges& edges, std::span<const Registration> registrations,
-                    double inflate);
+                      double inflate);
 
 }  // namespace plumb

@@ -17,13 +17,17 @@ struct DescribeEsf : SegmentStep {
 
   static void describe(Declaration<DescribeEsf>& is) {
     is.name("describe.esf").version(1);
-    is.summary("Computes the ESF descriptor of a whole segment (ensemble of shape functions, 640 numbers).");
+    is.summary(
+        "Computes the ESF descriptor of a whole segment (ensemble of shape functions, 640 "
+        "numbers).");
     is.source("[Wohlkinger2011]; [Tang2024] 2.3.1");
     is.input("segment", &In::segment, "the cloud");
     is.output("descriptor", &Out::descriptor, "ten histograms of 64 bins that sum to 1");
     is.param("samples", &Params::samples)
         .range(100, 10000000)
-        .doc("random triples of points; the noise of the descriptor falls with the square root of their number");
+        .doc(
+            "random triples of points; the noise of the descriptor falls with the square root of "
+            "their number");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -9,11 +9,10 @@
 namespace plumb {
 
 struct FpfhOptions {
-  double radius = 2.5;                           ///< [m] of a neighbourhood
+  double radius = 2.5;                          ///< [m] of a neighbourhood
   std::optional<std::uint32_t> max_neighbours;  ///< only so many of them, the nearest
-  std::uint32_t min_neighbours = 10;           ///< a key point with fewer gets no feature
-  double border_angle =
-      90 * deg;  ///< [rad] a wider gap between neighbours makes a border
+  std::uint32_t min_neighbours = 10;            ///< a key point with fewer gets no feature
+  double border_angle = 90 * deg;  ///< [rad] a wider gap between neighbours makes a border
 };
 
 struct Fpfh {

@@ -25,7 +25,8 @@ struct DescribeFpfh : SegmentStep {
 
   static void describe(Declaration<DescribeFpfh>& is) {
     is.name("describe.fpfh").version(1);
-    is.summary("Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
+    is.summary(
+        "Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
     is.source("[Rusu2009] II; [Tang2024] 2.3.2");
     is.input("segment", &In::segment, "a cloud with normals");
     is.scale(&In::scale);
@@ -47,7 +48,9 @@ struct DescribeFpfh : SegmentStep {
     is.param("border_angle", &Params::border_angle)
         .unit("rad")
         .range(45 * deg, 360 * deg)
-        .doc("a keypoint is at the border if its neighbours leave a sector free that is wider than this")
+        .doc(
+            "a keypoint is at the border if its neighbours leave a sector free that is wider than "
+            "this")
         .source("[Xiong2018]");
   }
 

@@ -59,7 +59,8 @@ Neighbourhood neighbours(std::size_t count,
     smallest = std::min(smallest, consecutive[k]);
     if (consecutive[k] == 0) result.disconnected.push_back(k);
   }
-  result.threshold = std::max(options.threshold.value_or(options.margin * smallest), options.min_threshold);
+  result.threshold =
+      std::max(options.threshold.value_or(options.margin * smallest), options.min_threshold);
 
   auto pairs = meeting(boxes, options.resolution);
   std::erase_if(pairs, [](const Pair& p) { return p.second - p.first == 1; });

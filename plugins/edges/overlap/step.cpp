@@ -17,7 +17,8 @@ struct OverlapEdges : WholeStep {
 
   static void describe(Declaration<OverlapEdges>& is) {
     is.name("edges.overlap").version(1);
-    is.summary("Proposes edges between segments whose clouds overlap, and between consecutive ones.");
+    is.summary(
+        "Proposes edges between segments whose clouds overlap, and between consecutive ones.");
     is.source("[Tang2024] 2.3.1");
     is.input("segments", &In::segments, "the clouds");
     is.input("poses", &In::poses, "the current poses of the segments");
@@ -30,7 +31,9 @@ struct OverlapEdges : WholeStep {
     is.param("threshold", &Params::threshold)
         .unit("%")
         .range(0, 1)
-        .doc("pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of consecutive segments");
+        .doc(
+            "pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of "
+            "consecutive segments");
     is.param("margin", &Params::margin).unit("%").range(0.01, 1).doc("see 'threshold'");
     is.param("min_threshold", &Params::min_threshold)
         .unit("%")

@@ -21,8 +21,9 @@ TEST(SequentialEdges, JoinEachSegmentWithTheNext) {
 TEST(SequentialEdges, AreNoneForOneSegmentAndThatIsSaid) {
   EXPECT_EQ(sequential_edges({}).size(), 0u);
   TestContext context;
-  const auto edges =
-      StepRun(*plumb_module()).each("ranges", std::vector<FrameRange>(1)).run<Edges>("edges", context);
+  const auto edges = StepRun(*plumb_module())
+                         .each("ranges", std::vector<FrameRange>(1))
+                         .run<Edges>("edges", context);
   EXPECT_EQ(edges.size(), 0u);
   EXPECT_EQ(edges.segments, 1u);
   EXPECT_EQ(context.warnings.size(), 1u);

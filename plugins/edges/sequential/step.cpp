@@ -14,7 +14,9 @@ struct SequentialEdges : WholeStep {
   struct Params {};
 
   static void describe(Declaration<SequentialEdges>& is) {
-    is.name("edges.sequential").version(1).summary("Proposes an edge from every segment to the next one.");
+    is.name("edges.sequential")
+        .version(1)
+        .summary("Proposes an edge from every segment to the next one.");
     is.source("[Tang2024] 2.3.1");
     is.input("ranges", &In::ranges, "the frames and poses of the segments");
     is.output("edges", &Out::edges, "one edge fewer than there are segments");

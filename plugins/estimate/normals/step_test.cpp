@@ -52,7 +52,9 @@ TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
 TEST(EstimateNormalsStep, RefusesANeighbourhoodWithoutBounds) {
   TestContext context;
   StepRun step(*plumb_module());
-  step.with("segment", patch()).set("radius", std::monostate()).set("max_neighbours", std::monostate());
+  step.with("segment", patch())
+      .set("radius", std::monostate())
+      .set("max_neighbours", std::monostate());
   EXPECT_THROW(step.run<Segment>("segment", context), Error);
 }
 

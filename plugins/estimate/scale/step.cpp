@@ -19,7 +19,9 @@ struct EstimateScale : WholeStep {
 
   static void describe(Declaration<EstimateScale>& is) {
     is.name("estimate.scale").version(1).source("ours");
-    is.summary("Estimates the scale of the surroundings relative to a street, by which other steps multiply their lengths.");
+    is.summary(
+        "Estimates the scale of the surroundings relative to a street, by which other steps "
+        "multiply their lengths.");
     is.input("trajectory", &In::trajectory, "the odometry, for its speed");
     is.output("scale", &Out::scale, "the factor, then the speed from which it is derived");
     is.param("factor", &Params::factor)
@@ -29,14 +31,17 @@ struct EstimateScale : WholeStep {
         .unit("m/s")
         .range(0.01, 1000)
         .doc("from this speed on the factor is 1; below it is proportional to the speed");
-    is.param("min_factor", &Params::min_factor).range(0.01, 1).doc("lower bound of the factor from the speed");
+    is.param("min_factor", &Params::min_factor)
+        .range(0.01, 1)
+        .doc("lower bound of the factor from the speed");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
     const double speed = usual_speed(*in.trajectory);
     Out out;
     out.scale
-        .add("scale", params.factor.value_or(scale_at(speed, params.full_speed, params.min_factor)), "")
+        .add("scale", params.factor.value_or(scale_at(speed, params.full_speed, params.min_factor)),
+             "")
         .add("speed", speed, "m/s");
     return out;
   }

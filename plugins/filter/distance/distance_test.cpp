@@ -70,7 +70,8 @@ TEST(FilterDistance, KeepsTheFramesPlaceAndCountsWhatItDropped) {
 }
 
 TEST(FilterDistance, RefusesBoundsThatLeaveNothing) {
-  EXPECT_THROW(plumb_module()->steps[0]->parameters({{"min_range", 5.0}, {"max_range", 5.0}}), Error);
+  EXPECT_THROW(plumb_module()->steps[0]->parameters({{"min_range", 5.0}, {"max_range", 5.0}}),
+               Error);
 }
 
 }  // namespace

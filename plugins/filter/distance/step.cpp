@@ -15,7 +15,8 @@ struct Distance : FrameStep {
     double min_range = 0.5;
     double max_range = 300;
     std::string check() const {
-      return min_range < max_range ? "" : "min_range must be less than max_range, or no point is left";
+      return min_range < max_range ? ""
+                                   : "min_range must be less than max_range, or no point is left";
     }
   };
 

@@ -80,8 +80,8 @@ class GroupSearch {
 
 }  // namespace
 
-std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree,
-                                  std::size_t mean_k, const ParallelFor& parallel) {
+std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree, std::size_t mean_k,
+                                  const ParallelFor& parallel) {
   constexpr std::size_t task = 512 * group_size;  // points
   const std::vector<std::uint32_t> order = compact_groups(cloud, group_size);
   std::vector<float> means(cloud.size());

@@ -146,7 +146,7 @@ TEST(StatisticalOutlier, DropsTheBirdsAndCountsThem) {
   const auto result = output.one.as<Segment>();
   EXPECT_LT(*std::max_element(result->cloud.y.begin(), result->cloud.y.end()), 5);
   EXPECT_GE(result->cloud.size(), 4990u);
-  EXPECT_EQ(context.counts["lonely points dropped"], cloud.size() - result->cloud.size());
+  EXPECT_EQ(context.counts["outliers removed"], cloud.size() - result->cloud.size());
   EXPECT_EQ(result->frame.size(), result->cloud.size());
 }
 

@@ -26,7 +26,9 @@ struct StatisticalOutlier : SegmentStep {
         .doc("number of nearest neighbours over which a point's mean distance is taken");
     is.param("stddev_mul_thresh", &Params::stddev_mul_thresh)
         .range(0, 100)
-        .doc("points whose mean distance exceeds the mean of all points by more than this many standard deviations are removed");
+        .doc(
+            "points whose mean distance exceeds the mean of all points by more than this many "
+            "standard deviations are removed");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -35,8 +37,7 @@ struct StatisticalOutlier : SegmentStep {
         mean_distances(segment.cloud, segment.tree(), params.mean_k,
                        [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     const auto kept = not_beyond(means, params.stddev_mul_thresh);
-    if (kept.size() < means.size())
-      context.count("lonely points dropped", means.size() - kept.size());
+    if (kept.size() < means.size()) context.count("outliers removed", means.size() - kept.size());
     return {segment.selected(kept)};
   }
 };

@@ -21,14 +21,18 @@ struct VoxelGrid : SegmentStep {
     is.summary("Downsamples a cloud to one point per voxel, the mean of its points.");
     is.input("segment", &In::segment, "the cloud to downsample");
     is.scale(&In::scale);
-    is.output("segment", &Out::segment, "the means of the voxels, with intensity and normals where the cloud has them");
-    is.param("voxel_size", &Params::voxel_size).unit("m").range(0.001, 1000).doc("edge length of a voxel");
+    is.output("segment", &Out::segment,
+              "the means of the voxels, with intensity and normals where the cloud has them");
+    is.param("voxel_size", &Params::voxel_size)
+        .unit("m")
+        .range(0.001, 1000)
+        .doc("edge length of a voxel");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     Thinned thinned = thin(*in.segment, params.voxel_size);
     if (thinned.dropped)
-      context.count("points with a coordinate that is no number dropped", thinned.dropped);
+      context.count("points with a non-finite coordinate dropped", thinned.dropped);
     return {in.segment->with(std::move(thinned.cloud), std::move(thinned.frame))};
   }
 };

@@ -19,7 +19,9 @@ using testing::ElementsAre;
 using testing::FloatEq;
 using testing::HasSubstr;
 
-Thinned thin(const Cloud& cloud, double voxel_size) { return plumb::thin(cloud, {}, {}, voxel_size); }
+Thinned thin(const Cloud& cloud, double voxel_size) {
+  return plumb::thin(cloud, {}, {}, voxel_size);
+}
 
 Cloud cloud_of(std::initializer_list<Eigen::Vector3f> points) {
   Cloud cloud;
@@ -57,7 +59,8 @@ TEST(VoxelGrid, AgreesWithASortedMapOfCells) {
     std::map<std::array<double, 3>, std::pair<Eigen::Vector4d, int>> cells;
     std::vector<std::array<double, 3>> order;
     for (std::size_t k = 0; k < cloud.size(); ++k) {
-      const std::array cell = {std::floor(cloud.x[k] / voxel_size), std::floor(cloud.y[k] / voxel_size),
+      const std::array cell = {std::floor(cloud.x[k] / voxel_size),
+                               std::floor(cloud.y[k] / voxel_size),
                                std::floor(cloud.z[k] / voxel_size)};
       auto [at, added] = cells.try_emplace(cell, Eigen::Vector4d::Zero(), 0);
       if (added) order.push_back(cell);

@@ -18,22 +18,32 @@ struct GateDistance : WholeStep {
 
   static void describe(Declaration<GateDistance>& is) {
     is.name("gate.distance").version(2).source("[Zhang2023] eq. 13");
-    is.summary("Builds a chain of consecutive scans, leaving out those whose distance to the surroundings jumps.");
+    is.summary(
+        "Builds a chain of consecutive scans, leaving out those whose distance to the surroundings "
+        "jumps.");
     is.input("segments", &In::segments, "the scans in order, one per segment");
-    is.optional_input("trajectory", &In::trajectory, "the frames' stamps: with them an interval without scans starts a new window");
+    is.optional_input(
+        "trajectory", &In::trajectory,
+        "the frames' stamps: with them an interval without scans starts a new window");
     is.output("edges", &Out::edges, "the chain: each accepted scan and the accepted one before it");
     is.output("metrics", &Out::metrics, "scans accepted and dropped, windows restarted");
     is.param("limit", &Params::limit)
         .range(0, 1)
-        .doc("upper bound of (r0 - r1)^2 / (r0 + r1)^2, where r is the distance of a scan's centroid from the sensor")
+        .doc(
+            "upper bound of (r0 - r1)^2 / (r0 + r1)^2, where r is the distance of a scan's "
+            "centroid from the sensor")
         .source("[Zhang2023] eq. 13");
     is.param("patience", &Params::patience)
         .range(0, 1e6)
-        .doc("after this many scans dropped in a row the window is cleared and restarts with the present scan");
+        .doc(
+            "after this many scans dropped in a row the window is cleared and restarts with the "
+            "present scan");
     is.param("max_time_gap", &Params::max_time_gap)
         .unit("s")
         .range(0, 1e9)
-        .doc("after a longer interval without scans, if it is also longer than 'patience' usual ones, the window restarts; none: never");
+        .doc(
+            "after a longer interval without scans, if it is also longer than 'patience' usual "
+            "ones, the window restarts; none: never");
     is.param("min_points", &Params::min_points)
         .range(1, 1e6)
         .doc("scans with fewer points are dropped");

@@ -71,7 +71,8 @@ class LoopSearch {
     const auto [first, second] = std::minmax(i, j);
     if (second - first < 2) return false;
     const double gap = path_[second] - path_[first];
-    return gap >= found_.min_path_separation && distance(i, j) <= found_.max_centroid_distance + options_.drift * gap;
+    return gap >= found_.min_path_separation &&
+           distance(i, j) <= found_.max_centroid_distance + options_.drift * gap;
   }
   /// Whether an edge would be new to an end that has too few.
   bool wanted(std::uint32_t i, std::uint32_t j) const {

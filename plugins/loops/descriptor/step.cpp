@@ -32,9 +32,9 @@ struct LoopEdges : WholeStep {
     is.output("edges", &Out::edges, "loop edges; the score is the similarity");
     is.choice("similarity", &Params::similarity,
               {{"inverse_difference", Similarity::inverse_difference,
-                "eq. 1, guarded where bins agree"},
-               {"cosine", Similarity::cosine, "of the angle between the vectors"},
-               {"chi_square", Similarity::chi_square, "1 - chi-square distance of histograms"}})
+                "eq. 1, bounded where bins agree"},
+               {"cosine", Similarity::cosine, "cosine of the angle between the vectors"},
+               {"chi_square", Similarity::chi_square, "1 - chi-square distance of the histograms"}})
         .doc("how two descriptors are compared");
     is.param("epsilon", &Params::epsilon)
         .range(1e-9, 1)
@@ -51,14 +51,20 @@ struct LoopEdges : WholeStep {
     is.param("max_centroid_distance", as_own(&LoopOptions::max_centroid_distance))
         .unit("m")
         .range(0, 1e6)
-        .doc("distance of the centroids without drift; none: 2 x the median distance of consecutive segments");
+        .doc(
+            "distance of the centroids without drift; none: 2 x the median distance of consecutive "
+            "segments");
     is.param("drift", as_own(&LoopOptions::drift))
         .unit("%")
         .range(0, 1)
-        .doc("expected drift, as a share of the path between two visits; added to 'max_centroid_distance'");
+        .doc(
+            "expected drift, as a share of the path between two visits; added to "
+            "'max_centroid_distance'");
     is.param("threshold", as_own(&LoopOptions::threshold))
         .range(0, 1)
-        .doc("least similarity; none: 'relative_threshold' x the median similarity of consecutive segments");
+        .doc(
+            "least similarity; none: 'relative_threshold' x the median similarity of consecutive "
+            "segments");
     is.param("relative_threshold", as_own(&LoopOptions::relative_threshold))
         .unit("%")
         .range(0, 10)
@@ -89,8 +95,9 @@ struct LoopEdges : WholeStep {
     };
     Loops loops = find_loops(places, alike, params);
     if (loops.edges.list.empty())
-      context.warn("no loop found: no two segments with " + short_number(loops.min_path_separation) +
-                   " m of path between them lie near each other and look alike");
+      context.warn("no loop found: no two segments with " +
+                   short_number(loops.min_path_separation) +
+                   " m of path between them are close and similar");
     context.count("loop edges", loops.edges.size());
     return {std::move(loops.edges)};
   }

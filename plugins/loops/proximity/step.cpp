@@ -15,7 +15,9 @@ struct ProximityLoops : WholeStep {
 
   static void describe(Declaration<ProximityLoops>& is) {
     is.name("loops.proximity").version(1).source("ours");
-    is.summary("Proposes an edge from every segment to the nearest one of each earlier visit to its place.");
+    is.summary(
+        "Proposes an edge from every segment to the nearest one of each earlier visit to its "
+        "place.");
     is.input("poses", &In::poses, "the current poses of the segments");
     is.output("edges", &Out::edges, "neighbours; the score falls from 1 to 0 with the distance");
     is.param("max_distance", &Params::max_distance)

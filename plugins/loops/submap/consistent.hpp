@@ -9,9 +9,9 @@ namespace plumb {
 
 struct SupportOptions {
   std::uint32_t min_support = 1;  ///< so many others must agree; 0: all stay
-  double within = 10;         ///< [m] of way at each end within which others are asked
-  double max_disagreement = 0.3;         ///< [m], a third of it in rad: how far two may differ
-  double per_metre = 0.02;    ///< ... and so much more for each metre of way between their ends
+  double within = 10;             ///< [m] of way at each end within which others are asked
+  double max_disagreement = 0.3;  ///< [m], a third of it in rad: how far two may differ
+  double per_metre = 0.02;        ///< ... and so much more for each metre of way between their ends
 };
 
 /// The loops that at least `support` others agree with. Two loops (i, j) and (k, l) whose ends are

@@ -1,7 +1,7 @@
 
-#include "submap.hpp"
 #include "plumb/data/values.hpp"
 #include "plumb/plugin/module.hpp"
+#include "submap.hpp"
 
 namespace plumb {
 namespace {
@@ -20,12 +20,15 @@ struct LoopsSubmap : WholeStep {
 
   static void describe(Declaration<LoopsSubmap>& is) {
     is.name("loops.submap").version(1).source("[Zhang2023] 1, 2; [Olson2009]");
-    is.summary("Finds loops by registering a submap of the newest scans to the map of earlier ones.");
+    is.summary(
+        "Finds loops by registering a submap of the newest scans to the map of earlier ones.");
     is.input("segments", &In::segments, "the clouds, in the plane");
     is.input("poses", &In::poses, "the current poses of the segments");
-    is.optional_input("known", &In::known, "loops found before, which reduce the uncertainty of the poses");
+    is.optional_input("known", &In::known,
+                      "loops found before, which reduce the uncertainty of the poses");
     is.output("constraints", &Out::constraints, "a relative pose for each loop");
-    is.output("metrics", &Out::metrics, "how many submaps were searched for and places tried, and why loops were rejected");
+    is.output("metrics", &Out::metrics,
+              "how many submaps were searched for and places tried, and why loops were rejected");
     is.param("submap_segments", &Params::submap_segments)
         .range(1, 1000)
         .source("[Zhang2023] 2")
@@ -48,7 +51,9 @@ struct LoopsSubmap : WholeStep {
     is.param("max_distance", &Params::max_distance)
         .unit("m")
         .range(0.1, 100)
-        .doc("submaps that passed each other closer than this, plus the uncertainty, are candidates");
+        .doc(
+            "submaps that passed each other closer than this, plus the uncertainty, are "
+            "candidates");
     is.param("drift", &Params::drift)
         .range(0, 1)
         .doc("uncertainty of the position for each metre of path");
@@ -67,7 +72,10 @@ struct LoopsSubmap : WholeStep {
     is.param("max_places", &Params::max_places)
         .range(1, 1000)
         .doc("earlier visits that a submap is registered to, the nearest ones");
-    is.param("resolution", &Params::resolution).unit("m").range(0.01, 2).doc("edge length of a cell of the search grid");
+    is.param("resolution", &Params::resolution)
+        .unit("m")
+        .range(0.01, 2)
+        .doc("edge length of a cell of the search grid");
     is.param("max_range", &Params::max_range)
         .unit("m")
         .range(1, 1000)
@@ -88,7 +96,9 @@ struct LoopsSubmap : WholeStep {
     is.param("max_disagreement", &Params::max_disagreement)
         .unit("m")
         .range(0.001, 100)
-        .doc("difference of two loops that agree, a third of it in rad, plus 2 % of the path between them");
+        .doc(
+            "difference of two loops that agree, a third of it in rad, plus 2 % of the path "
+            "between them");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -105,7 +115,7 @@ struct LoopsSubmap : WholeStep {
         .add("ambiguous", found.counts.ambiguous, "")
         .add("without_support", found.counts.alone, "");
     if (found.constraints.relative.empty())
-      out.metrics.notes.push_back("no loop was found: the drift stays");
+      out.metrics.notes.push_back("no loop was found: the drift remains");
     out.constraints = std::move(found.constraints);
     return out;
   }

@@ -40,7 +40,9 @@ class LoopFinder {
  public:
   LoopFinder(const std::function<std::shared_ptr<const Segment>(std::size_t)>& open,
              const Poses& poses, const Constraints* known, const LoopOptions& options)
-      : open_(open), options_(options), paths_(poses, known, options.turn_length, 2 * options.max_distance) {
+      : open_(open),
+        options_(options),
+        paths_(poses, known, options.turn_length, 2 * options.max_distance) {
     for (const auto& pose : poses.T_world_segment) poses_.push_back(planar(pose));
   }
 
@@ -91,7 +93,8 @@ class LoopFinder {
       if (nearest) list.push_back(*nearest);
       nearest.reset(), first.reset();
     };
-    for (std::uint32_t i = 0; i < j && travelled(j) - travelled(i) >= options_.min_path_separation; ++i) {
+    for (std::uint32_t i = 0; i < j && travelled(j) - travelled(i) >= options_.min_path_separation;
+         ++i) {
       if (distance(i, j) > options_.max_distance + search_window(lengths[i])) continue;
       if (last && travelled(i) - travelled(*last) > options_.max_distance) close();
       if (first && travelled(i) - travelled(*first) > 3 * options_.max_distance) close();
@@ -107,17 +110,18 @@ class LoopFinder {
   }
 
   std::optional<RelativePose> align(const Places& submap, double step, std::uint32_t i,
-                                  std::uint32_t j, double length, LoopCounts& counts) const {
+                                    std::uint32_t j, double length, LoopCounts& counts) const {
     Places map(0.5 * options_.resolution, options_.max_range + options_.max_distance);
     const std::uint32_t from = i - std::min(i, options_.map_segments);
-    for (std::uint32_t k = from;
-         k <= i + options_.map_segments && k < j && travelled(j) - travelled(k) >= 0.5 * options_.min_path_separation; ++k)
+    for (std::uint32_t k = from; k <= i + options_.map_segments && k < j &&
+                                 travelled(j) - travelled(k) >= 0.5 * options_.min_path_separation;
+         ++k)
       map.add(open_(k)->cloud, poses_[i].inverse() * poses_[k]);
     if (map.x.size() < 20) return std::nullopt;
     const LikelihoodField field(map.x, map.y, options_.resolution, options_.resolution,
                                 3 * options_.resolution, 6);
-    const SearchWindow window{poses_[i].inverse() * poses_[j], search_window(length), search_window(length),
-                              search_angle(length)};
+    const SearchWindow window{poses_[i].inverse() * poses_[j], search_window(length),
+                              search_window(length), search_angle(length)};
     const auto peak = best_pose(field, submap.x, submap.y, window, step, options_.min_score);
     if (!peak) return ++counts.low, std::nullopt;
     if (best_pose(field, submap.x, submap.y, window, step, options_.max_second_peak * peak->score,
@@ -155,14 +159,15 @@ Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)
   result.counts.asked = static_cast<std::uint32_t>(asking.size());
   for (std::size_t k = 0; k < asking.size(); ++k) {
     result.constraints.relative.insert(result.constraints.relative.end(), found[k].begin(),
-                                     found[k].end());
+                                       found[k].end());
     result.counts.tried += counts[k].tried;
     result.counts.low += counts[k].low;
     result.counts.ambiguous += counts[k].ambiguous;
   }
   const auto before = result.constraints.relative.size();
   result.constraints.relative =
-      supported(result.constraints.relative, poses, {options.min_support, 10, options.max_disagreement, 0.02});
+      supported(result.constraints.relative, poses,
+                {options.min_support, 10, options.max_disagreement, 0.02});
   result.counts.alone = static_cast<std::uint32_t>(before - result.constraints.relative.size());
   return result;
 }

@@ -121,7 +121,8 @@ TEST(GroupToMap, RefusesWhatIsNotUnique) {
   }
   const Loops loops = loops_of(there_and_back);
   EXPECT_GT(loops.counts.ambiguous, 0u);
-  for (const auto& loop : loops.constraints.relative) EXPECT_LT(wrong_by(there_and_back, loop), 0.3);
+  for (const auto& loop : loops.constraints.relative)
+    EXPECT_LT(wrong_by(there_and_back, loop), 0.3);
 }
 
 TEST(GroupToMap, KnowsNoLoopOnAStraightWay) {

@@ -20,12 +20,12 @@ struct PlacedScan {
 PlacedScan placed(const Cloud& cloud, const Pose& T_world_sensor);
 
 struct GridOptions {
-  double resolution = 0.05;  ///< edge of a cell [m]
-  double hit = 0.85;         ///< added to the log odds of a cell with a hit
-  double miss = 0.4;         ///< taken off the log odds of a cell that a ray passes
-  double min_log_odds = -2;        ///< log odds stay from here
-  double max_log_odds = 3.5;      ///< to here
-  double max_range = 30;     ///< a ray that ends farther away only clears its way up to here [m]
+  double resolution = 0.05;   ///< edge of a cell [m]
+  double hit = 0.85;          ///< added to the log odds of a cell with a hit
+  double miss = 0.4;          ///< taken off the log odds of a cell that a ray passes
+  double min_log_odds = -2;   ///< log odds stay from here
+  double max_log_odds = 3.5;  ///< to here
+  double max_range = 30;      ///< a ray that ends farther away only clears its way up to here [m]
   std::size_t max_cells = 400'000'000;
 
   std::string check() const {

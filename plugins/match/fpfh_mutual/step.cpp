@@ -36,7 +36,8 @@ struct MatchFpfhMutual : EdgeStep {
 
   static void describe(Declaration<MatchFpfhMutual>& is) {
     is.name("match.fpfh_mutual").version(1);
-    is.summary("Matches keypoints of two segments that are mutual nearest neighbours in feature space.");
+    is.summary(
+        "Matches keypoints of two segments that are mutual nearest neighbours in feature space.");
     is.source("[Tang2024] 2.3.2, eq. 2");
     is.input("edges", &In::edges, "pairs of segments");
     is.input("features", &In::features, "keypoints with descriptors");

@@ -48,7 +48,8 @@ void ask(const Segment& of, const Segment& near, const Motion& near_from_of,
                                        ? near.cloud.normal(nearest.index)
                                        : Eigen::Vector3f::Zero();
     if (options.to_plane && normal.isZero()) continue;
-    if (options.max_normal_angle && (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine)
+    if (options.max_normal_angle &&
+        (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine)
       continue;
     matches.p.push_back(of_is_i ? p : q);
     matches.q.push_back(of_is_i ? q : p);
@@ -66,7 +67,9 @@ Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options) {
   Matches matches;
   matches.to_plane = options.to_plane;
-  if (!j.box.meets(moved(i.box, T_i_j.inverse()), static_cast<float>(options.max_correspondence_distance))) return matches;
+  if (!j.box.meets(moved(i.box, T_i_j.inverse()),
+                   static_cast<float>(options.max_correspondence_distance)))
+    return matches;
   auto each_way = options.max_points;
   if (each_way && options.both_ways) each_way = (*each_way + 1) / 2;
   ask(i, j, Motion(T_i_j.inverse()), each_way, true, options, matches);

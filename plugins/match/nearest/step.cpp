@@ -30,17 +30,19 @@ struct Nearest : EdgeStep {
     is.summary("Matches each point of one segment with the nearest point of the other.");
     is.source("[Tang2024] 2.3.2");
     is.input("edges", &In::edges, "pairs of segments");
-    is.input("segments", &In::segments, "the clouds; with normals for 'metric: plane' and 'max_normal_angle'");
+    is.input("segments", &In::segments,
+             "the clouds; with normals for 'metric: plane' and 'max_normal_angle'");
     is.input("poses", &In::poses, "the current poses of the segments");
     is.scale(&In::scale);
-    is.output("matches", &Out::matches, "pairs no farther apart than 'max_correspondence_distance'");
+    is.output("matches", &Out::matches,
+              "pairs no farther apart than 'max_correspondence_distance'");
     is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(0.001, 100)
         .doc("distance between the two points of a pair");
     is.choice("metric", &Params::metric,
-              {{"point", Metric::point, "the solver shortens the whole distance of a pair"},
-               {"plane", Metric::plane, "the solver shortens the part along q's normal"}})
+              {{"point", Metric::point, "point-to-point distance"},
+               {"plane", Metric::plane, "point-to-plane distance, along q's normal"}})
         .doc("the error that the solver minimises");
     is.param("max_points", &Params::max_points)
         .range(1, 4e9)
@@ -50,7 +52,9 @@ struct Nearest : EdgeStep {
         .range(0, 180 * deg)
         .doc("pairs whose normals differ by more are dropped; none: normals are not compared");
     is.param("both_ways", &Params::both_ways)
-        .doc("match the second segment's points with the first's too, which cancels the bias of one-sided matching");
+        .doc(
+            "match the second segment's points with the first's too, which cancels the bias of "
+            "one-sided matching");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -67,9 +71,10 @@ struct Nearest : EdgeStep {
     if (params.metric == Metric::plane && params.both_ways) demand_normals(i, "both_ways");
     if (params.max_normal_angle)
       demand_normals(i, "max_normal_angle"), demand_normals(j, "max_normal_angle");
-    Matches matches = nearest_pairs(i, j, in.poses.T_i_j,
-                                    {params.max_correspondence_distance, params.metric == Metric::plane, params.max_points,
-                                     params.max_normal_angle, params.both_ways});
+    Matches matches =
+        nearest_pairs(i, j, in.poses.T_i_j,
+                      {params.max_correspondence_distance, params.metric == Metric::plane,
+                       params.max_points, params.max_normal_angle, params.both_ways});
     context.count("pairs dropped for their normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};

@@ -106,7 +106,8 @@ MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
   const auto n = static_cast<double>(cells.size());
   std::ranges::sort(distances);
   for (const double d : distances)
-    error.mean += d / n, error.rms += d * d / n, error.accuracy += d <= max_wall_distance ? 1 / n : 0;
+    error.mean += d / n, error.rms += d * d / n,
+        error.accuracy += d <= max_wall_distance ? 1 / n : 0;
   error.rms = std::sqrt(error.rms);
   error.largest = distances.back();
   error.percentile_99 = distances[static_cast<std::size_t>(std::ceil(0.99 * n)) - 1];

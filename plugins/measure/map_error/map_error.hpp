@@ -24,7 +24,8 @@ struct MapError {
   double mean = 0, rms = 0, largest = 0,
          percentile_99 = 0;  ///< distance of an occupied cell's centre to the nearest wall [m]
   double accuracy = 0;       ///< share of occupied cells nearer than `max_wall_distance`
-  double coverage = 0;  ///< share of the walls' length that has an occupied cell nearer than `max_wall_distance`
+  double coverage =
+      0;  ///< share of the walls' length that has an occupied cell nearer than `max_wall_distance`
 };
 
 /// Runs body(k) for k = 0 .. n-1, in any order.

@@ -26,13 +26,17 @@ struct MeasureMapError : WholeStep {
     is.name("measure.map_error").version(1).source("[Zhang2023] 3");
     is.summary("Measures the distance of a map's walls from those of the true floor plan.");
     is.input("map", &In::map, "the map");
-    is.optional_input("trajectory", &In::trajectory, "the poses from which the map was made; with 'truth' they align it with the plan");
+    is.optional_input(
+        "trajectory", &In::trajectory,
+        "the poses from which the map was made; with 'truth' they align it with the plan");
     is.output("metrics", &Out::metrics,
               "mean, rms, largest, percentile_99, accuracy, coverage, occupied");
     is.param("plan", &Params::plan)
         .doc("true walls, lines 'x1 y1 x2 y2' [m]; none: a note, and no numbers");
     is.param("truth", &Params::truth)
-        .doc("TUM file with the true poses in the plan's coordinates; none: the map is in these coordinates already");
+        .doc(
+            "TUM file with the true poses in the plan's coordinates; none: the map is in these "
+            "coordinates already");
     is.param("tolerance", &Params::tolerance)
         .unit("s")
         .range(1e-9, 10)
@@ -57,14 +61,15 @@ struct MeasureMapError : WholeStep {
     if (params.truth) {
       if (!in.trajectory)
         throw Error(
-            "measure.map_error has a truth but no trajectory to lay onto it: wire 'trajectory' or "
+            "measure.map_error has a truth but no trajectory to align with it: wire 'trajectory' "
+            "or "
             "set 'truth: none'");
       const PosePairs pairs =
           pair_by_stamp(*in.trajectory, read_tum(*params.truth, StampOrder::any), params.tolerance);
       if (pairs.size() == 0)
         throw Error(params.truth->string() +
                     ": no pose has the stamp of a pose of the trajectory, so the map cannot be "
-                    "laid onto the plan; "
+                    "aligned with the plan; "
                     "look whether both count the same seconds");
       T_plan_map = planar_alignment(pairs);
     }

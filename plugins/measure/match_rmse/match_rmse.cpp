@@ -5,7 +5,8 @@
 
 namespace plumb {
 
-IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i, double max_correspondence_distance,
+IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
+                         double max_correspondence_distance,
                          std::optional<std::uint32_t> max_points) {
   IndexPairs pairs;
   if (i.cloud.empty() || j.cloud.empty() ||
@@ -18,7 +19,8 @@ IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i, 
   const SearchTree& tree = j.tree();
   for (std::size_t k = 0; k < n; k += stride) {
     SearchTree::Neighbour nearest;
-    if (tree.nearest_within(motion * i.cloud.point(k), static_cast<float>(max_correspondence_distance), nearest))
+    if (tree.nearest_within(motion * i.cloud.point(k),
+                            static_cast<float>(max_correspondence_distance), nearest))
       pairs.emplace_back(static_cast<std::uint32_t>(k), nearest.index);
   }
   return pairs;

@@ -27,15 +27,23 @@ struct MatchRmse : WholeStep {
   static void describe(Declaration<MatchRmse>& is) {
     is.name("measure.match_rmse")
         .version(1)
-        .summary("Measures the RMSE of nearest-point matches between neighbouring segments, averaged over all edges.")
+        .summary(
+            "Measures the RMSE of nearest-point matches between neighbouring segments, averaged "
+            "over all edges.")
         .source("[Tang2024] eq. 3, 3.3");
     is.input("edges", &In::edges, "pairs of segments that are compared");
     is.input("segments", &In::segments, "their clouds, downsampled as they are to be compared");
     is.input("poses", &In::poses, "poses of the segments; one number for each, by its label");
-    is.optional_input("pairs", &In::pairs, "poses under which the pairs are found, once for all; without it, each of 'poses' has its own pairs");
+    is.optional_input("pairs", &In::pairs,
+                      "poses under which the pairs are found, once for all; without it, each of "
+                      "'poses' has its own pairs");
     is.scale(&In::scale);
-    is.output("metrics", &Out::metrics, "a number for each of 'poses', and under the last of them a record for each edge");
-    is.param("max_correspondence_distance", &Params::max_correspondence_distance).unit("m").range(1e-3, 100).doc("distance between the two points of a pair");
+    is.output("metrics", &Out::metrics,
+              "a number for each of 'poses', and under the last of them a record for each edge");
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
+        .unit("m")
+        .range(1e-3, 100)
+        .doc("distance between the two points of a pair");
     is.param("max_points", &Params::max_points)
         .range(1, 1e9)
         .doc("points of an edge's first segment that are matched, evenly selected; none: all");
@@ -53,11 +61,12 @@ struct MatchRmse : WholeStep {
     Result result;
     IndexPairs pairs;
     if (in.pairs)
-      pairs =
-          nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i), params.max_correspondence_distance, params.max_points);
+      pairs = nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i),
+                            params.max_correspondence_distance, params.max_points);
     for (const auto& [label, poses] : in.poses) {
       const Pose T_j_i = poses->relative(edge.j, edge.i);
-      if (!in.pairs) pairs = nearest_pairs(*i, *j, T_j_i, params.max_correspondence_distance, params.max_points);
+      if (!in.pairs)
+        pairs = nearest_pairs(*i, *j, T_j_i, params.max_correspondence_distance, params.max_points);
       result.rmse.push_back(rmse_of(pairs, *i, *j, T_j_i));
     }
     const std::size_t n = i->cloud.size();
@@ -110,7 +119,7 @@ struct MatchRmse : WholeStep {
     if (without)
       out.metrics.notes.push_back(
           std::to_string(without) + " of " + std::to_string(edges.size()) +
-          " edges have no points nearer than the max_correspondence_distance and are not in the mean");
+          " edges have no pairs within max_correspondence_distance and are not in the mean");
     return out;
   }
 };

@@ -18,9 +18,13 @@ struct MeasureRelations : WholeStep {
 
   static void describe(Declaration<MeasureRelations>& is) {
     is.name("measure.relations").version(1).source("[Kuemmerle2009]");
-    is.summary("Measures the error of trajectories against true relative poses between pairs of times.");
-    is.input("trajectories", &In::trajectories, "any number of trajectories; numbers are named after the label");
-    is.output("metrics", &Out::metrics, "for each trajectory the translation and rotation error, absolute and squared, mean and standard deviation");
+    is.summary(
+        "Measures the error of trajectories against true relative poses between pairs of times.");
+    is.input("trajectories", &In::trajectories,
+             "any number of trajectories; numbers are named after the label");
+    is.output("metrics", &Out::metrics,
+              "for each trajectory the translation and rotation error, absolute and squared, mean "
+              "and standard deviation");
     is.param("relations", &Params::relations)
         .doc(
             "file with lines 'from to x y z roll pitch yaw' [s, m, rad]; none: a note, and no "

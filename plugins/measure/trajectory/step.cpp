@@ -24,7 +24,8 @@ struct MeasureTrajectory : WholeStep {
   static void describe(Declaration<MeasureTrajectory>& is) {
     is.name("measure.trajectory")
         .version(2)
-        .summary("Measures the absolute and relative pose errors of trajectories against a true one.")
+        .summary(
+            "Measures the absolute and relative pose errors of trajectories against a true one.")
         .source("Sturm et al. 2012");
     is.input("trajectories", &In::trajectories,
              "any number of trajectories; numbers are named after the label");

@@ -35,7 +35,9 @@ struct DistanceGate : EdgeStep {
     is.param("loop_margin", &Params::loop_margin)
         .unit("m")
         .range(0, 1000)
-        .doc("on loop edges the bound is the distance of the centroids plus this; none: 'max_correspondence_distance' there too");
+        .doc(
+            "on loop edges the bound is the distance of the centroids plus this; none: "
+            "'max_correspondence_distance' there too");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

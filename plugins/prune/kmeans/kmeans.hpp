@@ -24,7 +24,8 @@ Clusters kmeans(const std::vector<Vector6d>& vectors, std::uint32_t k, Random ra
 /// How a cluster's worth is told.
 enum class Keep {
   largest,  ///< by the number of its vectors; of equals the tighter one
-  densest,  ///< by number / (spread + min_spread)^2, the spread being the rms distance to its centre
+  densest,  ///< by number / (spread + min_spread)^2, the spread being the rms distance to its
+            ///< centre
 };
 
 /// Indices of the vectors in the best cluster, in order; of equally good ones the lower. None for

@@ -35,8 +35,9 @@ struct KMeans : EdgeStep {
     is.input("poses", &In::poses, "the current poses of the segments");
     is.output("matches", &Out::matches, "the pairs of one cluster");
     is.choice("vector", &Params::vector,
-              {{"displacement", Vector::displacement, "p - q under the present poses"},
-               {"motion", Vector::motion, "that, and the rotation between the points' normals"}})
+              {{"displacement", Vector::displacement, "p - q under the current poses"},
+               {"motion", Vector::motion,
+                "the displacement, and the rotation between the points' normals"}})
         .doc("the vector that a pair is clustered by");
     is.param("lever", &Params::lever)
         .unit("m")
@@ -45,9 +46,7 @@ struct KMeans : EdgeStep {
     is.param("pairs_per_cluster", &Params::pairs_per_cluster)
         .range(1, 1e6)
         .doc("there is one cluster for this many pairs, and at least two");
-    is.param("max_clusters", &Params::max_clusters)
-        .range(2, 1000)
-        .doc("number of clusters");
+    is.param("max_clusters", &Params::max_clusters).range(2, 1000).doc("number of clusters");
     is.choice("keep", &Params::keep,
               {{"largest", Keep::largest, "the cluster with the most pairs, as in the paper"},
                {"densest", Keep::densest, "the cluster with the most pairs for its spread"}})
@@ -73,7 +72,8 @@ struct KMeans : EdgeStep {
     const auto wanted = static_cast<std::uint32_t>(matches.size()) / params.pairs_per_cluster;
     const auto clusters =
         kmeans(vectors, std::clamp(wanted, 2u, params.max_clusters), Random(context.seed()));
-    const auto kept = best_cluster(clusters, vectors, params.keep, params.min_spread, params.min_pairs);
+    const auto kept =
+        best_cluster(clusters, vectors, params.keep, params.min_spread, params.min_pairs);
     context.count("pairs dropped", matches.size() - kept.size());
     return {select(matches, kept)};
   }

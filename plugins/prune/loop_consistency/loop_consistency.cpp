@@ -67,7 +67,8 @@ class Judge {
   }
 
   bool near(const Loop& a, const Loop& b) const {
-    return path(a.i, b.i) <= options_.max_path_separation && path(a.j, b.j) <= options_.max_path_separation;
+    return path(a.i, b.i) <= options_.max_path_separation &&
+           path(a.j, b.j) <= options_.max_path_separation;
   }
 
   /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the

@@ -10,9 +10,9 @@ namespace plumb {
 /// How far the poses may have drifted between two segments with path L between them. Errors are
 /// slow: over `correlation_length` they add up in proportion to the path, beyond it with its root.
 struct DriftModel {
-  double translation_per_metre = 0.01;  ///< [m/m]
-  double rotation_per_metre = 0.03 * deg;   ///< [rad/m]
-  double correlation_length = 100;                  ///< [m]
+  double translation_per_metre = 0.01;     ///< [m/m]
+  double rotation_per_metre = 0.03 * deg;  ///< [rad/m]
+  double correlation_length = 100;         ///< [m]
 
   /// Standard deviations of the rotation [rad] and of the position [m] over `path` [m], the ends
   /// `distance` [m] apart.
@@ -37,7 +37,7 @@ struct ConsistencyOptions {
   double max_path_separation =
       150;  ///< [m] path at either end within which two loops can tell something of each other
   double max_unconfirmed_sigma = 3;  ///< [m] a loop that no other can confirm is kept where the
-                                  ///< drift's deviation is at most this
+                                     ///< drift's deviation is at most this
 };
 
 /// A verdict for each loop. First those that no drift within `max_deviation` explains are dropped.

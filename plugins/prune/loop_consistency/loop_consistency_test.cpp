@@ -239,7 +239,8 @@ TEST(LoopConsistency, HasNoLengthOfItsOwn) {
   for (auto& loop : loops) loop.T_i_j.translation *= 10, loop.sigma_translation *= 10;
   ConsistencyOptions options;
   options.drift.rotation_per_metre /= 10;
-  options.drift.correlation_length *= 10, options.max_path_separation *= 10, options.max_unconfirmed_sigma *= 10;
+  options.drift.correlation_length *= 10, options.max_path_separation *= 10,
+      options.max_unconfirmed_sigma *= 10;
   EXPECT_EQ(judge_loops(loops, large, options), verdicts);
 }
 
@@ -391,7 +392,8 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
   few.T_world_segment.resize(40);
   TestContext context;
   try {
-    pruning(registered(right_loops(two_laps(1), 1), 96), few).run<Constraints>("constraints", context);
+    pruning(registered(right_loops(two_laps(1), 1), 96), few)
+        .run<Constraints>("constraints", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
     EXPECT_STREQ(

@@ -80,11 +80,15 @@ struct PruneLoopConsistency : WholeStep {
     is.param("max_unconfirmed_sigma", &Params::max_unconfirmed_sigma)
         .unit("m")
         .range(0, 1e6)
-        .doc("a loop without neighbours is kept where the drift's standard deviation is at most this");
+        .doc(
+            "a loop without neighbours is kept where the drift's standard deviation is at most "
+            "this");
     is.param("translation_sigma", &Params::translation_sigma)
         .unit("m")
         .range(0, 1000)
-        .doc("standard deviation of a loop's translation, in addition to that of its registration: segments are not quite rigid");
+        .doc(
+            "standard deviation of a loop's translation, in addition to that of its registration: "
+            "segments are not quite rigid");
     is.param("rotation_sigma", &Params::rotation_sigma)
         .unit("rad")
         .range(0, 360 * deg)
@@ -107,13 +111,13 @@ struct PruneLoopConsistency : WholeStep {
                        params.rotation_sigma});
       of.push_back(k);
     }
-    const auto verdicts =
-        judge_loops(loops, *in.poses,
-                    {{params.translation_per_metre, params.rotation_per_metre, params.correlation_length},
-                     params.max_deviation,
-                     params.min_agreement,
-                     params.max_path_separation,
-                     params.max_unconfirmed_sigma});
+    const auto verdicts = judge_loops(
+        loops, *in.poses,
+        {{params.translation_per_metre, params.rotation_per_metre, params.correlation_length},
+         params.max_deviation,
+         params.min_agreement,
+         params.max_path_separation,
+         params.max_unconfirmed_sigma});
     Out out;
     std::vector<std::string> fates(edges.size(), "not registered");
     std::size_t kept = 0, odometry = 0, contradicted = 0, alone = 0;

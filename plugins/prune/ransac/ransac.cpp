@@ -39,8 +39,8 @@ Triple three_of(std::uint32_t n, Random& random) {
   return t;
 }
 
-/// Whether the two triangles can be one moved by up to `max_correspondence_distance` at each corner, and can tell
-/// a rotation.
+/// Whether the two triangles can be one moved by up to `max_correspondence_distance` at each
+/// corner, and can tell a rotation.
 bool alike(const Matches& m, const Triple& t, float max_correspondence_distance) {
   for (int k = 0; k < 3; ++k) {
     const auto a = t[k], b = t[(k + 1) % 3];
@@ -52,9 +52,11 @@ bool alike(const Matches& m, const Triple& t, float max_correspondence_distance)
   return u.cross(v).norm() > 0.1f * u.norm() * v.norm();
 }
 
-std::vector<std::uint32_t> agreeing(const Matches& m, const Pose& T_i_j, double max_correspondence_distance) {
+std::vector<std::uint32_t> agreeing(const Matches& m, const Pose& T_i_j,
+                                    double max_correspondence_distance) {
   const Motion i_from_j(T_i_j);
-  const auto squared_max = static_cast<float>(max_correspondence_distance * max_correspondence_distance);
+  const auto squared_max =
+      static_cast<float>(max_correspondence_distance * max_correspondence_distance);
   std::vector<std::uint32_t> inliers;
   for (std::uint32_t k = 0; k < m.size(); ++k)
     if ((m.p[k] - i_from_j * m.q[k]).squaredNorm() <= squared_max) inliers.push_back(k);

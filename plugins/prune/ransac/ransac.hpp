@@ -27,11 +27,12 @@ struct Consensus {
 /// (three or more, not in a line). Source: [Umeyama1991], without scale.
 Pose rigid_fit(const Matches& matches, const std::vector<std::uint32_t>& indices);
 
-/// Draws three pairs, drops them if their triangle's sides differ by more than 2 max_correspondence_distance or it
-/// is too small to tell a rotation, else fits a motion and counts who agrees; the one with most
-/// (the first of equals) is fitted again to its inliers as long as their number grows. Drawing
-/// stops when the share w of inliers makes a sample of inliers likely enough: samples >= log(1 -
-/// confidence) / log(1 - w^3). Source: [Fischler1981]. The same `random` gives the same result.
+/// Draws three pairs, drops them if their triangle's sides differ by more than 2
+/// max_correspondence_distance or it is too small to tell a rotation, else fits a motion and counts
+/// who agrees; the one with most (the first of equals) is fitted again to its inliers as long as
+/// their number grows. Drawing stops when the share w of inliers makes a sample of inliers likely
+/// enough: samples >= log(1 - confidence) / log(1 - w^3). Source: [Fischler1981]. The same `random`
+/// gives the same result.
 Consensus ransac(const Matches& matches, const RansacOptions& options, Random random);
 
 }  // namespace plumb

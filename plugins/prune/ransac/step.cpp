@@ -32,9 +32,7 @@ struct Ransac : EdgeStep {
         .unit("%")
         .range(0.5, 0.999999)
         .doc("probability that the best motion was sampled, at which sampling stops");
-    is.param("max_iterations", &Params::max_iterations)
-        .range(1, 1e8)
-        .doc("samples of three pairs");
+    is.param("max_iterations", &Params::max_iterations).range(1, 1e8).doc("samples of three pairs");
     is.param("min_pairs", &Params::min_pairs)
         .range(3, 1e6)
         .doc("fewer pairs than this are kept as they are: any three fit some motion");
@@ -46,9 +44,9 @@ struct Ransac : EdgeStep {
       if (matches.size() > 0) context.count("edges with too few pairs to sample, kept whole", 1);
       return {matches};
     }
-    const auto consensus =
-        ransac(matches, {params.max_correspondence_distance, params.confidence, params.max_iterations},
-               Random(context.seed()));
+    const auto consensus = ransac(
+        matches, {params.max_correspondence_distance, params.confidence, params.max_iterations},
+        Random(context.seed()));
     context.count("samples drawn", consensus.samples);
     context.count("pairs dropped", matches.size() - consensus.inliers.size());
     if (consensus.inliers.empty()) context.count("edges without any motion", 1);

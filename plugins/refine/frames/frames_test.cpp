@@ -290,7 +290,9 @@ TEST(RefineFrames, MultipliesTheDistanceOfACorrespondenceByAScale) {
   const Walk walk;  // frames stand 0.14 m off
   const auto error = [&](double scale) {
     TestContext context;
-    auto step = walk.step().set("max_correspondence_distance", 0.02).set("final_max_correspondence_distance", 0.02);
+    auto step = walk.step()
+                    .set("max_correspondence_distance", 0.02)
+                    .set("final_max_correspondence_distance", 0.02);
     step.with("scale", Metrics().add("scale", scale, ""));
     return distance(step.run<Trajectory>("trajectory", context).T_world_frame[2],
                     walk.straight.T_world_frame[2]);

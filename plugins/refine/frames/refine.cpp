@@ -63,7 +63,9 @@ FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Ta
     const double along =
         options.max_iterations > 1 ? std::min(1.0, 2.0 * k / (options.max_iterations - 1)) : 1.0;
     const double max =
-        options.max_correspondence_distance * std::pow(options.final_max_correspondence_distance / options.max_correspondence_distance, along);
+        options.max_correspondence_distance *
+        std::pow(options.final_max_correspondence_distance / options.max_correspondence_distance,
+                 along);
     Normal sums;
     for (const auto& target : targets)
       if (!target.segment->cloud.empty())

@@ -23,8 +23,11 @@ struct RefineFrames : WholeStep {
 
   static void describe(Declaration<RefineFrames>& is) {
     is.name("refine.frames").version(1).source("ours; [Chen1992] point-to-plane ICP");
-    is.summary("Registers each frame to the neighbouring segments, which removes the odometry's error within a segment.");
-    is.input("trajectory", &In::trajectory, "the poses of all frames, close to the segments' poses");
+    is.summary(
+        "Registers each frame to the neighbouring segments, which removes the odometry's error "
+        "within a segment.");
+    is.input("trajectory", &In::trajectory,
+             "the poses of all frames, close to the segments' poses");
     is.input("frames", &In::frames, "the clouds of all frames");
     is.input("segments", &In::segments, "the frames' segments, with normals");
     is.input("poses", &In::poses, "poses of the segments, in the trajectory's world");
@@ -32,16 +35,21 @@ struct RefineFrames : WholeStep {
     is.output("trajectory", &Out::trajectory, "the refined poses of all frames");
     is.param("neighbours", &Params::neighbours)
         .range(1, 100)
-        .doc("segments before, and as many after its own, that a frame is registered to; its own segment is left out, since it would keep the frame in place");
+        .doc(
+            "segments before, and as many after its own, that a frame is registered to; its own "
+            "segment is left out, since it would keep the frame in place");
     is.param("max_correspondence_distance", as_own(&FrameOptions::max_correspondence_distance))
         .unit("m")
         .range(1e-3, 100)
         .doc("distance between the two points of a correspondence, in the first iteration");
-    is.param("final_max_correspondence_distance", as_own(&FrameOptions::final_max_correspondence_distance))
+    is.param("final_max_correspondence_distance",
+             as_own(&FrameOptions::final_max_correspondence_distance))
         .unit("m")
         .range(1e-3, 100)
         .doc("the same in the last iteration");
-    is.param("max_iterations", as_own(&FrameOptions::max_iterations)).range(1, 1000).doc("iterations of point-to-plane ICP");
+    is.param("max_iterations", as_own(&FrameOptions::max_iterations))
+        .range(1, 1000)
+        .doc("iterations of point-to-plane ICP");
     is.param("max_points", as_own(&FrameOptions::max_points))
         .range(30, 1e9)
         .doc("points of a frame that are matched, evenly selected");
@@ -55,7 +63,9 @@ struct RefineFrames : WholeStep {
     is.param("translation_sigma", as_own(&FrameOptions::translation_sigma))
         .unit("m")
         .range(1e-6, 1e3)
-        .doc("standard deviation of a frame's position in the input: a prior for directions that its points do not constrain");
+        .doc(
+            "standard deviation of a frame's position in the input: a prior for directions that "
+            "its points do not constrain");
     is.param("rotation_sigma", as_own(&FrameOptions::rotation_sigma))
         .unit("rad")
         .range(1e-6 * deg, 360 * deg)

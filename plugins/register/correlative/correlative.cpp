@@ -30,20 +30,23 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   if (onto.x.empty() || laid.x.empty()) return result;
 
   const bool known = start.x != 0 || start.y != 0 || start.yaw != 0;
-  const Prior prior{start, known ? options.prior_weight : 0, options.prior_translation_sigma, options.prior_rotation_sigma};
+  const Prior prior{start, known ? options.prior_weight : 0, options.prior_translation_sigma,
+                    options.prior_rotation_sigma};
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
   const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma,
                                levels);
   const double step = yaw_step_for(laid.x, laid.y, options.resolution);
-  auto peak = best_pose(coarse, laid.x, laid.y,
-                        {start, options.search_window, options.search_window, options.search_angle, prior}, step, 0);
+  auto peak = best_pose(
+      coarse, laid.x, laid.y,
+      {start, options.search_window, options.search_window, options.search_angle, prior}, step, 0);
   if (!peak || peak->score < options.retry_below) {
     result.retried = true;
-    const auto wider = best_pose(coarse, laid.x, laid.y,
-                                 {start, options.retry_search_window, options.retry_search_window, M_PI, prior},
-                                 step, peak ? peak->score : 0);
+    const auto wider =
+        best_pose(coarse, laid.x, laid.y,
+                  {start, options.retry_search_window, options.retry_search_window, M_PI, prior},
+                  step, peak ? peak->score : 0);
     if (wider) peak = wider;
   }
   if (!peak) return result;

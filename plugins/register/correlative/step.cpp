@@ -26,9 +26,12 @@ struct RegisterCorrelative : EdgeStep {
 
   static void describe(Declaration<RegisterCorrelative>& is) {
     is.name("register.correlative").version(1).source("[Olson2009]");
-    is.summary("Registers planar clouds by exhaustive search of a window around the current pose (correlative scan matching).");
+    is.summary(
+        "Registers planar clouds by exhaustive search of a window around the current pose "
+        "(correlative scan matching).");
     is.input("edges", &In::edges, "pairs of segments to register");
-    is.input("targets", &In::targets, "the target clouds, in the plane; that of an edge's i is used");
+    is.input("targets", &In::targets,
+             "the target clouds, in the plane; that of an edge's i is used");
     is.input("sources", &In::sources, "the source clouds; that of an edge's j is used");
     is.input("poses", &In::poses, "the current poses of the segments: the centre of the window");
     is.output("registration", &Out::registration, "T_i_j, with its score as overlap");
@@ -45,7 +48,10 @@ struct RegisterCorrelative : EdgeStep {
         .doc("half width of the window in heading");
     param("prior_weight", &CorrelativeOptions::prior_weight)
         .range(0, 1)
-        .doc("score that a pose far from the current one loses at most, so that the current pose decides where the points do not, as along a corridor; no effect where the current pose is the identity");
+        .doc(
+            "score that a pose far from the current one loses at most, so that the current pose "
+            "decides where the points do not, as along a corridor; no effect where the current "
+            "pose is the identity");
     param("prior_translation_sigma", &CorrelativeOptions::prior_translation_sigma)
         .unit("m")
         .range(1e-3, 10)
@@ -64,7 +70,9 @@ struct RegisterCorrelative : EdgeStep {
         .doc("standard deviation of a point's position in the first search");
     param("retry_below", &CorrelativeOptions::retry_below)
         .range(0, 1)
-        .doc("where the best score is lower, the window is widened to retry_search_window and all headings");
+        .doc(
+            "where the best score is lower, the window is widened to retry_search_window and all "
+            "headings");
     param("retry_search_window", &CorrelativeOptions::retry_search_window)
         .unit("m")
         .range(0.01, 50)
@@ -81,9 +89,7 @@ struct RegisterCorrelative : EdgeStep {
         .unit("m")
         .range(1, 1000)
         .doc("points farther from their sensor are left out");
-    is.param("min_score", &Params::min_score)
-        .range(0, 1)
-        .doc("score of an accepted registration");
+    is.param("min_score", &Params::min_score).range(0, 1).doc("score of an accepted registration");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

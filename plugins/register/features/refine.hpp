@@ -17,10 +17,10 @@ struct RefineOptions {
 
 /// Point-to-plane ICP of segment i onto segment j, both with normals, from T_j_i. Afterwards
 /// `overlap` is the share of i's points in j's box (and of j's in i's, whichever is less) that have
-/// a point of the other within max_correspondence_distance with a normal that agrees (that share of the points
-/// alone that do not lie on the commonest surfaces, if it is less), `mae` the mean distance to the
-/// plane [m], `information` that of T_i_j [1/m^2, 1/rad^2], taking the pairs for as many
-/// independent ones as `independent` and their distances for the noise.
+/// a point of the other within max_correspondence_distance with a normal that agrees (that share of
+/// the points alone that do not lie on the commonest surfaces, if it is less), `mae` the mean
+/// distance to the plane [m], `information` that of T_i_j [1/m^2, 1/rad^2], taking the pairs for as
+/// many independent ones as `independent` and their distances for the noise.
 Registration refined(const Segment& i, const Segment& j, const Pose& T_j_i,
                      const RefineOptions& options, double independent = 50);
 

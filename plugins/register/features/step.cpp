@@ -27,7 +27,9 @@ struct RegisterFeatures : EdgeStep {
 
   static void describe(Declaration<RegisterFeatures>& is) {
     is.name("register.features").version(1);
-    is.summary("Registers two segments without an initial pose, by consensus of feature matches and then ICP.");
+    is.summary(
+        "Registers two segments without an initial pose, by consensus of feature matches and then "
+        "ICP.");
     is.source("[Chen2022] SC2-PCR for the agreement; [Chen1992] point-to-plane ICP");
     is.input("matches", &In::matches, "pairs of keypoints, most of which may be wrong");
     is.input("segments", &In::segments, "the clouds, with normals");
@@ -37,14 +39,18 @@ struct RegisterFeatures : EdgeStep {
     is.param("tolerance", &Params::tolerance)
         .unit("m")
         .range(0.001, 100)
-        .doc("correct pairs preserve the distance between their points up to this value, and are at most this far apart");
+        .doc(
+            "correct pairs preserve the distance between their points up to this value, and are at "
+            "most this far apart");
     is.param("min_inliers", &Params::min_inliers)
         .range(3, 1e6)
         .doc("pairs that must agree on one motion");
     is.param("min_overlap", &Params::min_overlap)
         .unit("%")
         .range(0, 1)
-        .doc("share of the points in the common box that must lie on a surface of the other cloud after alignment");
+        .doc(
+            "share of the points in the common box that must lie on a surface of the other cloud "
+            "after alignment");
     is.param("initial_max_correspondence_distance", &Params::initial_max_correspondence_distance)
         .unit("m")
         .range(0.001, 100)
@@ -76,7 +82,8 @@ struct RegisterFeatures : EdgeStep {
       return {};
     }
     Registration r = refined(i, j, agreed.T_j_i,
-                             {params.initial_max_correspondence_distance, params.max_correspondence_distance, 20, params.max_points},
+                             {params.initial_max_correspondence_distance,
+                              params.max_correspondence_distance, 20, params.max_points},
                              params.independent);
     r.accepted = r.overlap >= params.min_overlap && !r.information.isZero(0);
     context.count(r.accepted ? "edges registered"

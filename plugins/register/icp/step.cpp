@@ -37,7 +37,8 @@ struct Register : EdgeStep {
   template <class Self>
   static void describe_shared(Declaration<Self>& is) {
     is.input("edges", &In::edges, "pairs of segments to register");
-    is.input("targets", &In::targets, "the target clouds, in the plane; that of an edge's i is used");
+    is.input("targets", &In::targets,
+             "the target clouds, in the plane; that of an edge's i is used");
     is.input("sources", &In::sources, "the source clouds; that of an edge's j is used");
     is.input("poses", &In::poses, "the current poses of the segments: the initial guess");
     is.optional_input("initial", &In::initial, "the initial guess instead, if accepted");
@@ -47,10 +48,11 @@ struct Register : EdgeStep {
         .unit("m")
         .range(1e-3, 100)
         .doc("distance between the two points of a pair");
-    is.choice("metric", &Params::metric,
-              {{"point", Metric::point, "the distance of the pairs"},
-               {"line", Metric::line,
-                "its part along the target's normal (estimate.normals with planar)"}})
+    is.choice(
+          "metric", &Params::metric,
+          {{"point", Metric::point, "point-to-point distance"},
+           {"line", Metric::line,
+            "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
         .doc("the error that is minimised")
         .source("[Zhang2023] eq. (3)");
     is.param("max_iterations", &Params::max_iterations)
@@ -63,7 +65,9 @@ struct Register : EdgeStep {
     is.param("start_sigma", &Params::start_sigma)
         .unit("m")
         .range(1e-4, 100)
-        .doc("with metric line, standard deviation of the initial guess's position, a third of it in rad for the heading; none: no prior");
+        .doc(
+            "with metric line, standard deviation of the initial guess's position, a third of it "
+            "in rad for the heading; none: no prior");
     is.param("min_overlap", &Params::min_overlap)
         .range(0, 1)
         .doc("share of the points that must have a pair for the registration to be accepted");
@@ -80,7 +84,8 @@ struct Register : EdgeStep {
         planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
     IcpOptions options;
     options.stop = stop, options.metric = params.metric, options.change = params.change;
-    options.ratio = params.ratio, options.max_correspondence_distance = params.max_correspondence_distance,
+    options.ratio = params.ratio,
+    options.max_correspondence_distance = params.max_correspondence_distance,
     options.max_iterations = params.max_iterations;
     options.noise = params.noise, options.start_sigma = params.start_sigma;
     Registration out;
@@ -105,11 +110,11 @@ struct RegisterIcp : Register<Stop::change> {
   static void describe(Declaration<RegisterIcp>& is) {
     is.name("register.icp").version(1).source("[Zhang2023] eq. (1)-(11)");
     is.summary(
-        "Lays planar clouds onto each other by iterated closest points, until the pose rests.");
+        "Registers planar clouds by ICP (iterative closest points), until the pose converges.");
     describe_shared(is);
     is.param("change", &Params::change)
         .range(1e-9, 1)
-        .doc("it rests when it moves by less, m and rad together");
+        .doc("converged when an iteration moves the pose by less, m and rad added");
   }
 };
 
@@ -117,14 +122,14 @@ struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
     is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
     is.summary(
-        "Lays planar clouds onto each other by iterated closest points, until the mean distance "
-        "stops falling.");
+        "Registers planar clouds by ICP (iterative closest points), until the mean distance of the "
+        "pairs stops decreasing.");
     describe_shared(is);
     is.param("ratio", &Params::ratio)
         .range(0, 1)
         .source("[Zhang2023] 2")
         .doc(
-            "stops when the mean distance of the pairs is no less than this times that of the "
+            "stops when the mean distance of the pairs is at least this times that of the "
             "iteration before");
   }
 };

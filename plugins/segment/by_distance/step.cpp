@@ -40,18 +40,22 @@ struct ByDistance : WholeStep {
     is.param("length", &Params::length)
         .unit("m")
         .range(0.01, 1e6)
-        .doc("path length from a segment's first frame to its last");
+        .doc("path length from a segment's first frame to its last, at most");
     is.param("max_frames", &Params::max_frames)
         .range(1, 65535)
         .doc("frames per segment, for where the sensor rests; none: no limit");
     is.param("max_rotation", &Params::max_rotation)
         .unit("rad")
         .range(0.005 * deg, 180 * deg)
-        .doc("a frame whose rotation relative to its segment's first frame exceeds this begins a new segment; none: no limit");
+        .doc(
+            "a frame whose rotation relative to its segment's first frame exceeds this begins a "
+            "new segment; none: no limit");
     is.param("max_length", &Params::max_length)
         .unit("m")
         .range(0.01, 1e6)
-        .doc("'length' grows up to this where the path would give more than 'max_segments'; none: it does not grow");
+        .doc(
+            "'length' grows up to this where the path would give more than 'max_segments'; none: "
+            "it does not grow");
     is.param("max_segments", &Params::max_segments).range(1, 1e9).doc("see 'max_length'");
   }
 

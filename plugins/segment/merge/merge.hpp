@@ -16,8 +16,9 @@ using OpenFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
 /// is dropped.
 Segment merge(const FrameRange& range, const OpenFrame& open);
 
-/// What VoxelMeans makes of that in cells of `voxel_size` [m], one frame after another: the merged cloud
-/// itself is never in memory. `dropped`: points with a coordinate that is no finite number.
-Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open, std::size_t& dropped);
+/// What VoxelMeans makes of that in cells of `voxel_size` [m], one frame after another: the merged
+/// cloud itself is never in memory. `dropped`: points with a non-finite coordinate.
+Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open,
+                      std::size_t& dropped);
 
 }  // namespace plumb

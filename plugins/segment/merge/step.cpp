@@ -23,11 +23,14 @@ struct Merge : SegmentStep {
     is.input("frames", &In::frames, "the segment's own frames, in order");
     is.input("ranges", &In::ranges, "the frames of each segment, and their poses in it");
     is.scale(&In::scale);
-    is.output("segment", &Out::segment, "all points in the segment's coordinates, or the means of the voxels");
+    is.output("segment", &Out::segment,
+              "all points in the segment's coordinates, or the means of the voxels");
     is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0, 1000)
-        .doc("edge length of the voxels to downsample by while merging, as filter.voxel_grid does afterwards; 0 keeps all points");
+        .doc(
+            "edge length of the voxels to downsample by while merging, as filter.voxel_grid does "
+            "afterwards; 0 keeps all points");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -39,8 +42,8 @@ struct Merge : SegmentStep {
     const auto open = [&](std::size_t k) { return in.frames.open(k).shared(); };
     std::size_t dropped = 0;
     Out out{params.voxel_size > 0 ? merge_thinned(*in.ranges, params.voxel_size, open, dropped)
-                            : merge(*in.ranges, open)};
-    if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+                                  : merge(*in.ranges, open)};
+    if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
     if (out.segment.cloud.empty()) context.count("segments without any point", 1);
     return out;
   }

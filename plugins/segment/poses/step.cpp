@@ -15,10 +15,14 @@ struct SegmentPoses : WholeStep {
 
   static void describe(Declaration<SegmentPoses>& is) {
     is.name("segment.poses").version(1).source("ours");
-    is.summary("Evaluates a trajectory at segments that were cut from another trajectory of the same frames.");
+    is.summary(
+        "Evaluates a trajectory at segments that were cut from another trajectory of the same "
+        "frames.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.input("ranges", &In::ranges, "the frames of each segment");
-    is.output("poses", &Out::poses, "the pose of each segment's middle frame, which is the origin of the segment's coordinates");
+    is.output("poses", &Out::poses,
+              "the pose of each segment's middle frame, which is the origin of the segment's "
+              "coordinates");
   }
 
   Out run(const In& in, const Params&, Context&) const {

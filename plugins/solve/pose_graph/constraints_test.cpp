@@ -164,7 +164,8 @@ TEST_P(KnownGraph, ReachesTheCostThatASecondComputationFinds) {
   const auto path = graph_file(GetParam());
   if (path.empty()) GTEST_SKIP() << GetParam() << " is not on this machine";
   const File file = read(path);
-  const auto result = solve_pose_graph(file.poses, {}, &file.constraints, least_squares(), in_order);
+  const auto result =
+      solve_pose_graph(file.poses, {}, &file.constraints, least_squares(), in_order);
   const double cost = cost_of(file.constraints, result.poses);
   EXPECT_NEAR(result.metrics.numbers[2].value / cost, 1, 1e-9) << "cost_after is not the cost";
   // The second computation starts somewhere else, at five times that cost and more.
@@ -219,10 +220,11 @@ TEST(Constraints, OfWhichATenthAreFalseLoopsAreLetGo) {
   for (std::size_t k = 0; k < g.edges.size(); ++k)
     if (g.edges[k].kind == EdgeKind::loop && k % 10 == 1) planted.push_back(k);
   ASSERT_GE(planted.size(), 4u);
-  for (const auto k : planted) constraints.relative[k].T_i_j.translation += Eigen::Vector3d(9, 5, -3);
+  for (const auto k : planted)
+    constraints.relative[k].T_i_j.translation += Eigen::Vector3d(9, 5, -3);
   const auto result = solved();
   EXPECT_LT(ate(result.poses, g.truth), 1.1 * clean + 1e-3);
-  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].fate, "rejected");
+  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].status, "rejected");
 }
 
 /// The circle's constraints that are sequential, or the others.

@@ -62,7 +62,8 @@ TEST(Costs, HaveTheDerivativesThatFiniteDifferencesFind) {
     const RelativePose constraint{0, 1, random_pose(random), random_information(random)};
     expect_right_derivatives(G2oCost(constraint, &weight), {a, b});
     expect_right_derivatives(ChordalCost(constraint, false, &weight), {a, b});
-    expect_right_derivatives(AbsolutePoseCost({0, random_pose(random), constraint.information}), {a});
+    expect_right_derivatives(AbsolutePoseCost({0, random_pose(random), constraint.information}),
+                             {a});
     expect_right_derivatives(AbsolutePointCost({0, gauss3(random, 5), gauss3(random, 5),
                                                 Eigen::Matrix3d::Identity() * 4}),
                              {a});

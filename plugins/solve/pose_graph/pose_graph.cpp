@@ -93,8 +93,8 @@ class Graph {
     constraints_ = terms_.size();
   }
 
-  /// From a pose to the next that any constraint names: between them lie at most poses that were left
-  /// out.
+  /// From a pose to the next that any constraint names: between them lie at most poses that were
+  /// left out.
   bool sequential(const RelativePose& r) const {
     return r.j > r.i && named_[r.j] == named_[r.i + 1];
   }
@@ -404,7 +404,8 @@ class Graph {
 
 std::string GraphOptions::check() const {
   if (odometry_translation_sigma.has_value() != odometry_rotation_sigma.has_value())
-    return "odometry_translation_sigma and odometry_rotation_sigma go together; give both or neither";
+    return "odometry_translation_sigma and odometry_rotation_sigma go together; give both or "
+           "neither";
   if (anneal_from && *anneal_from < scale)
     return "anneal_from must not be smaller than scale, to which it shrinks";
   return "";

@@ -32,11 +32,11 @@ struct GraphOptions {
   ConstraintError constraint_error = ConstraintError::g2o;
   double constraint_scale =
       3;  ///< standard deviations at which the loss lets go of a constraint that is not sequential
-  int max_rounds = 30;                 ///< at most: weights refreshed, solved again
-  int max_iterations = 100;            ///< of Levenberg-Marquardt in each round, at most
-  bool estimate_variance = false;  ///< whether edges count, beside sequential constraints, by how far
-                                   ///< they disagree with each other
-  bool uncertainty = false;        ///< whether the poses' covariances are computed
+  int max_rounds = 30;             ///< at most: weights refreshed, solved again
+  int max_iterations = 100;        ///< of Levenberg-Marquardt in each round, at most
+  bool estimate_variance = false;  ///< whether edges count, beside sequential constraints, by how
+                                   ///< far they disagree with each other
+  bool uncertainty = false;  ///< whether the poses' covariances are computed
   double uncertainty_per_metre =
       4e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the
              ///< first: clouds share a bias
@@ -59,7 +59,7 @@ struct GraphResult {
   Metrics metrics;
   std::vector<std::string> warnings;  ///< sentences: what fell apart
   Constraints uncertainty;  ///< if asked for: each pose but the fixed ones as an absolute pose with
-                          ///< its marginal information
+                            ///< its marginal information
 };
 
 /// Calls body(0 .. n-1), in any order, on any threads.
@@ -70,11 +70,11 @@ using ParallelLoop =
 ///   sum over edges, over pairs   w rho(|T_i p - T_j q|^2 / scale^2)       (or the distance to the
 ///   plane at q)
 /// + sum over constraints           rho(e'Omega e / constraint_scale^2) constraint_scale^2
-/// + sum over consecutive poses   |v / odometry_translation_sigma|^2 + |w / odometry_rotation_sigma|^2,   if
-/// both are given, v and w being what T_k^-1 T_k+1 differs from what it is in `start`. Sequential
-/// constraints (no pose between i and j is named by any constraint) have no loss. It is solved in
-/// rounds: weights rho' from the present residuals, all pairs summed to one form per edge
-/// (pair_moments.hpp), Levenberg-Marquardt.
+/// + sum over consecutive poses   |v / odometry_translation_sigma|^2 + |w /
+/// odometry_rotation_sigma|^2,   if both are given, v and w being what T_k^-1 T_k+1 differs from
+/// what it is in `start`. Sequential constraints (no pose between i and j is named by any
+/// constraint) have no loss. It is solved in rounds: weights rho' from the present residuals, all
+/// pairs summed to one form per edge (pair_moments.hpp), Levenberg-Marquardt.
 ///
 /// `estimate_variance`: after each round sequential constraints' information is multiplied by the
 /// edges' variance factor (below) times uncertainty_factor^2, as if the edges' pairs had the

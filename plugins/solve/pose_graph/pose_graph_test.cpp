@@ -77,7 +77,8 @@ TEST(PoseGraph, LetsGoOfPlantedFalseLoopsAndNamesThem) {
     EXPECT_LT(ate(result.poses, g.truth), 1.1 * clean + 1e-3) << seed;
     for (std::size_t k = 0; k < g.edges.size(); ++k) {
       const bool is_planted = std::find(planted.begin(), planted.end(), k) != planted.end();
-      EXPECT_EQ(result.metrics.edges[k].fate, is_planted ? "rejected" : "kept") << seed << " " << k;
+      EXPECT_EQ(result.metrics.edges[k].status, is_planted ? "rejected" : "accepted")
+          << seed << " " << k;
     }
   }
 }
@@ -101,7 +102,7 @@ TEST(PoseGraph, AnEdgesOwnLossRejectsItAsAWhole) {
   options.edge_scale = 0.5;
   const auto result = solve(g, options);
   EXPECT_LT(ate(result.poses, g.truth), 0.05);
-  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].fate, "rejected");
+  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].status, "rejected");
 }
 
 TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
@@ -110,7 +111,7 @@ TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
   const auto result = solve(g, robust());
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_THAT(result.warnings[0], testing::HasSubstr("2 parts (segments 0-4; 5-9)"));
-  EXPECT_EQ(result.metrics.edges[4].fate, "no matches");
+  EXPECT_EQ(result.metrics.edges[4].status, "no matches");
   // The second part keeps its place after segment 4 and is right within itself.
   const Pose kept = g.drifted.relative(4, 5), now = result.poses.relative(4, 5);
   EXPECT_LT((kept.translation - now.translation).norm(), 1e-9);

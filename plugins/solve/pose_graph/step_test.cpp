@@ -63,12 +63,13 @@ TEST(SolvePoseGraph, RefusesToSolveNothing) {
 }
 
 Constraints planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs,
-                       bool planar = true) {
+                         bool planar = true) {
   Constraints constraints;
   constraints.planar = planar;
   for (const auto& [i, j] : pairs)
-    constraints.relative.push_back({i, j, Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}),
-                                  100 * Matrix6d::Identity()});
+    constraints.relative.push_back({i, j,
+                                    Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}),
+                                    100 * Matrix6d::Identity()});
   return constraints;
 }
 
@@ -125,11 +126,12 @@ TEST(SolvePoseGraph, TakesAConstraintOverALeftOutPoseForSequential) {
   EXPECT_NEAR(poses.T_world_segment[1].translation.x(), 1.1, 1e-9);
   EXPECT_EQ(metrics.edges[0].kind, EdgeKind::sequential);
   EXPECT_EQ(metrics.edges[3].kind, EdgeKind::loop);
-  EXPECT_EQ(metrics.edges[3].fate, "rejected");
+  EXPECT_EQ(metrics.edges[3].status, "rejected");
   EXPECT_TRUE(context.warnings.empty());
-  EXPECT_THAT(metrics.notes,
-              testing::ElementsAre(
-                  "segments 1 are named by no constraint and keep their place after the one before"));
+  EXPECT_THAT(
+      metrics.notes,
+      testing::ElementsAre(
+          "segments 1 are named by no constraint and keep their place after the one before"));
 }
 
 TEST(SolvePoseGraph, RefusesParametersThatDoNotGoTogether) {

@@ -1,14 +1,14 @@
 #pragma once
-/// What the solved graph says of itself: numbers, each edge's fate, and what is weak.
+/// What the solved graph says of itself: numbers, each edge's status, and what is weak.
 
 #include "edge_state.hpp"
 
 namespace plumb {
 
-/// Mean weight from which an edge counts as kept, and under which as rejected; between them it is
-/// down-weighted.
-inline constexpr double kept_from = 0.5, rejected_under = 0.05;
-const char* fate_of(double mean_weight);
+/// Mean weight from which an edge counts as accepted, and under which as rejected; between them it
+/// is down-weighted.
+inline constexpr double accepted_from = 0.5, rejected_under = 0.05;
+const char* status_of(double mean_weight);
 
 class Verdict {
  public:

@@ -107,7 +107,7 @@ class Reader {
     std::uint64_t value = 0;
     if (!io::to_number(word, value))
       refuse(io::in_quotes(word) + " after " + std::string(of) +
-             " is no vertex number: expected 0, 1, 2 or so");
+             " is not a vertex number: expected 0, 1, 2 or so");
     return value;
   }
   /// Exactly n finite numbers to the end of the line.
@@ -129,7 +129,7 @@ class Reader {
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     const double norm = q.coeffs().stableNorm();
     if (!(norm > 1e-6))
-      refuse("the quaternion has norm 0, so it is no rotation: no rotation is 0 0 0 1");
+      refuse("the quaternion has norm 0, so it is not a rotation: no rotation is 0 0 0 1");
     q.coeffs() /= norm;
     return {q, Eigen::Vector3d(v[0], v[1], v[2])};
   }

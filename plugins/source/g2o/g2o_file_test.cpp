@@ -119,7 +119,7 @@ TEST_F(G2oFile, IsRefusedWithItsLineWhenALineIsDamaged) {
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 zero 0\n"), HasSubstr("'zero' is none"));
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 nan 0\n"), HasSubstr("'nan' is none"));
   EXPECT_THAT(refusal("VERTEX_SE2 -1 0 0 0\n"),
-              HasSubstr("'-1' after VERTEX_SE2 is no vertex number"));
+              HasSubstr("'-1' after VERTEX_SE2 is not a vertex number"));
   EXPECT_THAT(refusal("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n"), HasSubstr("norm 0"));
   EXPECT_THAT(refusal("VERTEX_XY 0 0 0\n"), HasSubstr("unknown word 'VERTEX_XY'"));
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 0 0\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n"),

@@ -31,7 +31,9 @@ struct Kitti : WholeStep {
         .doc("12 numbers a line, one line per frame; none: poses.txt in the folder");
     is.param("times", &Params::times).doc("one stamp [s] per line; none: times.txt in the folder");
     is.param("calibration", &Params::calibration)
-        .doc("calib.txt with the laser's extrinsics Tr: the poses are then the camera's; none: they are the laser's");
+        .doc(
+            "calib.txt with the laser's extrinsics Tr: the poses are then the camera's; none: they "
+            "are the laser's");
   }
 
   Out run(const In&, const Params& params, Context&) const {
@@ -52,7 +54,7 @@ struct Kitti : WholeStep {
     for (const auto& file : files) out.frames.keys.push_back(io::key_of(file));
     out.frames.open = [files = std::move(files)](std::size_t k, Context& context) {
       auto [cloud, dropped] = read_bin(files[k].path);
-      if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };
     return out;

@@ -41,7 +41,8 @@ std::vector<Scan> scans_of(const fs::path& folder) {
   return scans;
 }
 
-PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory, double max_time_gap) {
+PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory,
+                   double max_time_gap) {
   PlacedScans result;
   const auto& stamps = trajectory.stamps;
   for (const Scan& scan : scans) {

@@ -35,8 +35,8 @@ struct MulRan : WholeStep {
             "TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv); none: odometry.tum in the "
             "folder");
     is.choice("poses_of", &Params::poses_of,
-              {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
-               {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})
+              {{"sensor", Body::sensor, "the laser, as SLAM systems write them"},
+               {"vehicle", Body::vehicle, "MulRan's car, as in global_pose.csv"}})
         .doc("the body whose poses the trajectory holds");
     is.param("max_time_gap", &Params::max_time_gap)
         .unit("s")
@@ -64,7 +64,7 @@ struct MulRan : WholeStep {
     for (const Scan& scan : placing.scans) out.frames.keys.push_back(io::key_of(scan.file));
     out.frames.open = [kept = std::move(placing.scans)](std::size_t k, Context& reading) {
       auto [cloud, dropped] = read_bin(kept[k].file.path);
-      if (dropped) reading.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) reading.count("points with a non-finite coordinate dropped", dropped);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };
     return out;

@@ -37,7 +37,7 @@ struct Sequence : WholeStep {
     is.choice("coordinates", &Params::coordinates,
               {{"sensor", Coordinates::sensor, "the clouds are as the sensor saw them"},
                {"world", Coordinates::world,
-                "the clouds were already moved by the trajectory's poses"}})
+                "the clouds were already transformed by the trajectory's poses"}})
         .doc("coordinates that the clouds are stored in");
   }
 
@@ -55,7 +55,7 @@ struct Sequence : WholeStep {
     out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
                                                                     Context& context) {
       auto [cloud, dropped] = read_cloud(files[k].path);
-      if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
       if (world) bring_to_frame(cloud, trajectory->T_world_frame[k]);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };

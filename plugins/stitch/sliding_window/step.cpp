@@ -27,8 +27,11 @@ struct SlidingWindow : WholeStep {
     is.summary("Merges each scan with the scans before it into a submap.");
     is.input("segments", &In::segments, "the scans in order, one per segment");
     is.input("poses", &In::poses, "poses of the scans");
-    is.optional_input("edges", &In::edges, "the chain of accepted scans: only these are merged, and none from before a window restarted");
-    is.output("submaps", &Out::submaps, "for each scan the points of its window, in the scan's coordinates")
+    is.optional_input("edges", &In::edges,
+                      "the chain of accepted scans: only these are merged, and none from before a "
+                      "window restarted");
+    is.output("submaps", &Out::submaps,
+              "for each scan the points of its window, in the scan's coordinates")
         .over("segments");
     is.param("frames", &Params::frames)
         .range(1, 10000)
@@ -40,7 +43,9 @@ struct SlidingWindow : WholeStep {
     is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.001, 1000)
-        .doc("points this close to a kept point are merged with it into their mean; none: every point is kept");
+        .doc(
+            "points this close to a kept point are merged with it into their mean; none: every "
+            "point is kept");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -67,7 +72,8 @@ struct SlidingWindow : WholeStep {
 
  private:
   static Cloud stitched(const std::vector<One<Segment>>& scans, const Poses& poses,
-                        const Windows& windows, std::size_t k, const std::optional<double>& voxel_size) {
+                        const Windows& windows, std::size_t k,
+                        const std::optional<double>& voxel_size) {
     Cloud all;
     std::optional<Spots> spots;
     if (voxel_size) {

@@ -88,8 +88,8 @@ std::vector<Segment> groups_of(const Drive& drive, ParameterValue voxel_size) {
   inputs[1].one = any_value(drive.poses);
   std::vector<PortOutput> outputs(1);
   TestContext context;
-  step.run(step.parameters({{"frames", std::int64_t{3}}, {"voxel_size", voxel_size}}).get(), inputs, outputs,
-           context);
+  step.run(step.parameters({{"frames", std::int64_t{3}}, {"voxel_size", voxel_size}}).get(), inputs,
+           outputs, context);
   std::vector<Segment> submaps;
   for (const auto& value : outputs[0].many) submaps.push_back(*value.as<Segment>());
   return submaps;

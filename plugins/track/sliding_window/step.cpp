@@ -32,7 +32,8 @@ struct TrackSlidingWindow : WholeStep {
     double search_window = 0.6, search_angle = 30 * deg, lost_search_window = 1.5;
     std::uint32_t patience = 5;
     std::string check() const {
-      return odometry_sigma && metric == Metric::point ? "'odometry_sigma' goes with 'metric: line'" : "";
+      return odometry_sigma && metric == Metric::point ? "'odometry_sigma' goes with 'metric: line'"
+                                                       : "";
     }
   };
 
@@ -41,9 +42,11 @@ struct TrackSlidingWindow : WholeStep {
     is.summary("Tracks a 2-D laser by registering each scan to the submap of the scans before it.");
     is.input("segments", &In::segments, "the scans in order, one per segment, in the plane");
     is.input("poses", &In::poses, "their poses from odometry; all equal where there is none");
-    is.input("edges", &In::edges, "the chain of accepted scans; an edge that is not sequential restarts the window");
+    is.input("edges", &In::edges,
+             "the chain of accepted scans; an edge that is not sequential restarts the window");
     is.output("poses", &Out::poses, "poses of the scans; those outside the chain are interpolated");
-    is.output("metrics", &Out::metrics, "scans registered; means of iterations, distances and overlap; windows restarted");
+    is.output("metrics", &Out::metrics,
+              "scans registered; means of iterations, distances and overlap; windows restarted");
     is.param("frames", &Params::frames)
         .range(1, 1000)
         .doc("scans in the window")
@@ -51,49 +54,64 @@ struct TrackSlidingWindow : WholeStep {
     is.param("min_translation", &Params::min_translation)
         .unit("m")
         .range(0, 100)
-        .doc("a scan joins the window when it is farther than this from the window's newest; 0: each does");
-    is.param("min_rotation", &Params::min_rotation).unit("rad").range(0, 360 * deg).doc("or rotated by more than this");
+        .doc(
+            "a scan joins the window when it is farther than this from the window's newest; 0: "
+            "each does");
+    is.param("min_rotation", &Params::min_rotation)
+        .unit("rad")
+        .range(0, 360 * deg)
+        .doc("or rotated by more than this");
     is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.001, 10)
-        .doc("points of the submap this close to a kept point are merged with it into their mean; none: every point is kept");
+        .doc(
+            "points of the submap this close to a kept point are merged with it into their mean; "
+            "none: every point is kept");
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.01, 10)
         .doc("radius of the neighbourhood for a point's normal");
     is.choice("stop", &Params::stop,
               {{"ratio", Stop::ratio,
-                "when the mean distance of the pairs stops falling: IA-ICP, eq. (12)"},
-               {"change", Stop::change, "when the pose rests: the usual ICP"}})
+                "when the mean distance of the pairs stops decreasing: IA-ICP, eq. (12)"},
+               {"change", Stop::change, "when the pose converges: standard ICP"}})
         .doc("when a registration ends")
         .source("[Zhang2023] eq. (12)");
     is.choice("metric", &Params::metric,
-              {{"line", Metric::line, "the part of the pairs' distance along the group's normal"},
-               {"point", Metric::point, "the distance of the pairs"}})
+              {{"line", Metric::line, "point-to-line distance, along the submap's normal"},
+               {"point", Metric::point, "point-to-point distance"}})
         .doc("the error that is minimised")
         .source("[Zhang2023] eq. (3)");
     is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(1e-3, 100)
         .doc("distance between the two points of a pair");
-    is.param("max_iterations", &Params::max_iterations).range(1, 10000).doc("iterations of one registration");
+    is.param("max_iterations", &Params::max_iterations)
+        .range(1, 10000)
+        .doc("iterations of one registration");
     is.param("change", &Params::change)
         .range(1e-9, 1)
-        .doc("it rests when it moves by less, m and rad together");
+        .doc("converged when an iteration moves the pose by less, m and rad added");
     is.param("ratio", &Params::ratio)
         .range(0, 1)
-        .doc("stops when the mean distance is no less than this times that of the iteration before")
+        .doc("stops when the mean distance is at least this times that of the iteration before")
         .source("[Zhang2023] 2");
     is.param("odometry_sigma", &Params::odometry_sigma)
         .unit("m")
         .range(1e-4, 100)
-        .doc("with metric line, standard deviation of the odometry's translation from scan to scan, a third of it in rad for the heading; none: no prior");
+        .doc(
+            "with metric line, standard deviation of the odometry's translation from scan to scan, "
+            "a third of it in rad for the heading; none: no prior");
     is.param("min_overlap", &Params::min_overlap)
         .range(0, 1)
-        .doc("share of a scan's points that must have a pair; else the predicted motion is used and the scan does not join the window");
+        .doc(
+            "share of a scan's points that must have a pair; else the predicted motion is used and "
+            "the scan does not join the window");
     is.param("search_below", &Params::search_below)
         .range(0, 1)
-        .doc("where the overlap is lower, a window around the predicted pose is searched; none: never");
+        .doc(
+            "where the overlap is lower, a window around the predicted pose is searched; none: "
+            "never");
     is.param("search_blind", &Params::search_blind)
         .range(0, 1)
         .doc("the same where there is no odometry, if it is greater");
@@ -125,12 +143,12 @@ struct TrackSlidingWindow : WholeStep {
       if (n) context.count(what, n);
     };
     count("iterations", static_cast<std::size_t>(tracked.iterations));
-    count("scans searched for", tracked.searched);
+    count("scans whose pose was searched for", tracked.searched);
     count("scans that did not fit", tracked.unfit);
-    count("windows started again", tracked.restarts);
+    count("windows restarted", tracked.restarts);
     if (tracked.unfit)
       context.warn(std::to_string(tracked.unfit) + " of " + std::to_string(tracked.laid) +
-                   " scans do not fit those before them: the expected motion stands there");
+                   " scans do not fit those before them: the predicted motion is used there");
     const double n = std::max<double>(1, static_cast<double>(tracked.laid));
     Out out;
     out.metrics.add("registrations", static_cast<double>(tracked.laid), "")
@@ -147,7 +165,8 @@ struct TrackSlidingWindow : WholeStep {
  private:
   static TrackOptions options_of(const Params& params) {
     TrackOptions options;
-    options.frames = params.frames, options.voxel_size = params.voxel_size, options.radius = params.radius;
+    options.frames = params.frames, options.voxel_size = params.voxel_size,
+    options.radius = params.radius;
     options.search_window = params.search_window, options.search_angle = params.search_angle;
     options.lost_search_window = params.lost_search_window;
     options.icp.stop = params.stop, options.icp.metric = params.metric,

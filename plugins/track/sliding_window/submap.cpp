@@ -73,7 +73,7 @@ const LikelihoodField& Submap::field() const {
 }
 
 double Submap::score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start,
-                    bool known) const {
+                     bool known) const {
   const PlanarPose T_world_submap = newest();
   const PlanarPose T = T_world_submap.inverse() * pose;
   return score_of(field(), scan.x, scan.y, T) -
@@ -81,9 +81,10 @@ double Submap::score(const Cloud& scan, const PlanarPose& pose, const PlanarPose
 }
 
 std::optional<PlanarPose> Submap::search(const Cloud& scan, const PlanarPose& start, bool known,
-                                        Breadth breadth) const {
+                                         Breadth breadth) const {
   const PlanarPose centre = newest().inverse() * start;
-  const double reach = breadth == Breadth::near ? options_.search_window : options_.lost_search_window;
+  const double reach =
+      breadth == Breadth::near ? options_.search_window : options_.lost_search_window;
   const auto peak =
       best_pose(field(), scan.x, scan.y,
                 {centre, reach, reach, breadth == Breadth::near ? options_.search_angle : M_PI,

@@ -12,12 +12,13 @@
 namespace plumb {
 
 struct SubmapOptions {
-  std::uint32_t frames = 10;          ///< scans in the window
-  std::optional<double> voxel_size = 0.05;  ///< [m] points so near to one that is kept become one with it
-  double radius = 0.25;               ///< [m] of the neighbourhood that a normal is taken from
-  double search_window = 0.6;          ///< [m] half the width of a search
-  double search_angle = 30 * deg;           ///< [rad] half the width of a search in heading
-  double lost_search_window = 1.5;            ///< [m] half the width of a search in all headings
+  std::uint32_t frames = 10;  ///< scans in the window
+  std::optional<double> voxel_size =
+      0.05;                         ///< [m] points so near to one that is kept become one with it
+  double radius = 0.25;             ///< [m] of the neighbourhood that a normal is taken from
+  double search_window = 0.6;       ///< [m] half the width of a search
+  double search_angle = 30 * deg;   ///< [rad] half the width of a search in heading
+  double lost_search_window = 1.5;  ///< [m] half the width of a search in all headings
 };
 
 enum class Breadth { near, all_headings };

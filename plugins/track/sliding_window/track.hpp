@@ -4,15 +4,16 @@
 
 #include <span>
 
-#include "submap.hpp"
 #include "plumb/data/graph.hpp"
+#include "submap.hpp"
 
 namespace plumb {
 
 struct TrackOptions : SubmapOptions {
   IcpOptions icp;
-  double min_translation = 0.25;  ///< [m] a scan farther than this from the window's newest joins the window
-  double min_rotation = 15 * deg;   ///< [rad] or turned by more
+  double min_translation =
+      0.25;  ///< [m] a scan farther than this from the window's newest joins the window
+  double min_rotation = 15 * deg;  ///< [rad] or turned by more
   double min_overlap = 0.5;  ///< share of a scan's points that must have a partner for it to fit
   std::optional<double> search_below = 0.9;  ///< overlap below which the pose is searched for
   double search_blind = 0.98;                ///< the same where there is no odometry

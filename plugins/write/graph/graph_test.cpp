@@ -35,7 +35,7 @@ TEST(ConstraintOf, IsTheTruePoseForExactPairs) {
   std::mt19937 random(1);
   const Pose truth(exp_rotation({0.1, 0.2, 0.5}), {5, 3, 1});
   const auto constraint = constraint_of({2, 4}, pairs(truth, 50, 0, random),
-                                    truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
+                                        truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
   ASSERT_TRUE(constraint);
   EXPECT_EQ(constraint->j, 4u);
   EXPECT_LT(g2o_error(constraint->T_i_j, truth).norm(), 1e-5);
@@ -68,7 +68,8 @@ TEST(ConstraintOf, SpreadsAsItsInformationSays) {
   double chi2 = 0;
   const int trials = 200;
   for (int k = 0; k < trials; ++k) {
-    const auto constraint = *constraint_of({0, 1}, pairs(truth, 60, 0.1, random), truth, std::nullopt);
+    const auto constraint =
+        *constraint_of({0, 1}, pairs(truth, 60, 0.1, random), truth, std::nullopt);
     const Vector6d e = g2o_error(constraint.T_i_j, truth);
     chi2 += e.dot(constraint.information * e);
   }

@@ -51,8 +51,8 @@ void put_planar(std::string& text, const Pose& pose) {
 
 }  // namespace
 
-std::optional<RelativePose> constraint_of(const Edge& edge, const Matches& matches, const Pose& T_i_j,
-                                        std::optional<double> noise) {
+std::optional<RelativePose> constraint_of(const Edge& edge, const Matches& matches,
+                                          const Pose& T_i_j, std::optional<double> noise) {
   if (matches.size() < 3) return std::nullopt;
   const PairForm form = form_of(matches, T_i_j.inverse());
   const Pose T_j_i = fitted(form);

@@ -28,14 +28,17 @@ struct WriteGraph : WholeStep {
         .version(1)
         .summary("Writes the pose graph as a g2o file, for other solvers and viewers.");
     is.input("poses", &In::poses, "the vertices");
-    is.optional_input("matches", &In::matches, "point pairs: each edge becomes the relative pose that fits them best");
+    is.optional_input("matches", &In::matches,
+                      "point pairs: each edge becomes the relative pose that fits them best");
     is.optional_input("constraints", &In::constraints, "relative poses, written as they are");
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
     is.param("noise", &Params::noise)
         .unit("m")
         .range(1e-6, 1000)
-        .doc("standard deviation of a pair, for the edges' information; none: the residual of each edge's fit");
+        .doc(
+            "standard deviation of a pair, for the edges' information; none: the residual of each "
+            "edge's fit");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -54,10 +57,11 @@ struct WriteGraph : WholeStep {
                       " poses; wire poses of the same segments");
       context.parallel(edges.size(), [&](std::size_t k) {
         found[k] = constraint_of(edges[k], *in.matches.open(k),
-                               in.poses->relative(edges[k].i, edges[k].j), params.noise);
+                                 in.poses->relative(edges[k].i, edges[k].j), params.noise);
       });
       std::uint64_t without = 0;
-      for (auto& constraint : found) constraint ? graph.relative.push_back(*constraint) : void(++without);
+      for (auto& constraint : found)
+        constraint ? graph.relative.push_back(*constraint) : void(++without);
       if (without) context.count("edges with fewer than 3 pairs not written", without);
     }
     return {{params.name, g2o_text(*in.poses, graph)}};

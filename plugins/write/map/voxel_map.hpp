@@ -24,9 +24,10 @@ class VoxelMap {
  public:
   using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-  /// Cells of edge length `voxel_size` [m], counted from `origin` [m, world]. Closed tiles take `memory`
-  /// [bytes] before they go to disk.
-  VoxelMap(double voxel_size, const Eigen::Vector3d& origin, std::size_t memory = std::size_t{32} << 20)
+  /// Cells of edge length `voxel_size` [m], counted from `origin` [m, world]. Closed tiles take
+  /// `memory` [bytes] before they go to disk.
+  VoxelMap(double voxel_size, const Eigen::Vector3d& origin,
+           std::size_t memory = std::size_t{32} << 20)
       : leaf_(voxel_size), origin_(origin), memory_(memory) {}
 
   /// The cells of one frame, tile by tile.

@@ -31,8 +31,11 @@ struct WriteUncertainty : WholeStep {
     is.summary("Writes the uncertainty of each frame's pose relative to the first.");
     is.input("uncertainty", &In::uncertainty, "of solve.pose_graph with 'uncertainty: true'");
     is.input("ranges", &In::ranges, "the frames of the segments that were solved");
-    is.input("trajectory", &In::trajectory, "the poses of all frames that the uncertainty belongs to");
-    is.output("document", &Out::document, "CSV: stamp, position, its covariance in world axes [m^2], standard deviations of the rotation [rad]");
+    is.input("trajectory", &In::trajectory,
+             "the poses of all frames that the uncertainty belongs to");
+    is.output("document", &Out::document,
+              "CSV: stamp, position, its covariance in world axes [m^2], standard deviations of "
+              "the rotation [rad]");
     is.output("metrics", &Out::metrics, "median and greatest standard deviation of the positions");
     is.param("name", &Params::name).doc("name of the file in the output folder");
   }

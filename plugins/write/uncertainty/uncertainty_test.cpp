@@ -184,12 +184,12 @@ TEST(UncertaintyTable,
   const Pose along, across(exp_rotation({0, 0, M_PI / 2}), {4, 0, 0});
   Constraints constraints;
   constraints.absolute = {known(0, along, diagonal({1, 1, 1}, {2.5e-5, 1e-4, 2.25e-4})),
-                        known(1, across, diagonal({1, 1, 1}, {1e-4, 2.5e-5, 2.25e-4}))};
+                          known(1, across, diagonal({1, 1, 1}, {1e-4, 2.5e-5, 2.25e-4}))};
   Trajectory trajectory =
       along_x(6);  // middle frames 1 and 4; 2 is turned like the first segment, 3 like the second
   for (std::size_t k = 3; k < 6; ++k) trajectory.T_world_frame[k].rotation = across.rotation;
-  const auto rows = rows_of(
-      uncertainty_table(trajectory, of_frames(uncertainty_of(constraints, 2), ranges_of({3, 3}), 6)));
+  const auto rows = rows_of(uncertainty_table(
+      trajectory, of_frames(uncertainty_of(constraints, 2), ranges_of({3, 3}), 6)));
   ASSERT_EQ(rows.size(), 6u);
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_NEAR(rows[k][10], k < 3 ? 0.01 : 0.02, 1e-6) << "roll of frame " << k;
@@ -253,7 +253,8 @@ TEST(WriteUncertainty, GivesTheMedianAndTheGreatestDeviationOfThePositions) {
 
 TEST(WriteUncertainty, WarnsWhereTheSolverGaveNone) {
   TestContext context;
-  const auto document = wired().with("uncertainty", Constraints()).run<Document>("document", context);
+  const auto document =
+      wired().with("uncertainty", Constraints()).run<Document>("document", context);
   EXPECT_EQ(rows_of(document.bytes.text()).size(), 9u);
   ASSERT_EQ(context.warnings.size(), 1u);
   EXPECT_THAT(context.warnings[0], HasSubstr("uncertainty: true"));

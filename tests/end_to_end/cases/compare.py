@@ -103,14 +103,14 @@ def test_a_name_that_leads_out_of_the_output_is_refused(folder):
     for name in ("../escaped", str(folder / "absolute"), "a/b", ".hidden", "..", "\\x1b[2J", "x" * 201):
         (folder / "chained.yaml").write_text(SMALL.replace("name: chained", f'name: "{name}"'))
         said = plumb(*command, "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_INPUT)
-        refused(said, "chained.yaml: its name", "is no name for a file or folder", "choose another")
+        refused(said, "chained.yaml: its name", "is not a name for a file or folder", "choose another")
         assert "\x1b" not in said.err, said
     (folder / "chained.yaml").write_text(SMALL)
     for name in ("../up", "/abs", ".hidden", "a/b"):
         said = plumb(*command[:2], "--variant", f"{name}={folder}/loose.yaml", "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_COMMAND_LINE)
-        said.has("is no name for")
+        said.has("is not a name for")
     rooms[0].rename(folder / ".rooms")
-    refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is no name for")
+    refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is not a name for")
     assert sorted(p.name for p in folder.iterdir()) == [".rooms", "chained.yaml", "loose.yaml"]
 
 

@@ -55,7 +55,7 @@ def metrics_tell_what_happened(out, result=None, falls=2):
         for edge in edges:
             assert edge["i"] != edge["j"] and 0 <= edge["kept"] <= edge["found"] and 0 <= edge["weight"] <= 1, edge
             assert edge["kind"] in ("sequential", "neighbour", "loop"), edge
-            assert edge["fate"] in ("kept", "down-weighted", "rejected", "no matches"), edge
+            assert edge["status"] in ("accepted", "down-weighted", "rejected", "no matches"), edge
     rmse = numbers(stages["match_rmse"])
     assert list(rmse) == ["before", "drift", "coarse", "fine"]
     assert rmse["fine"] * falls < rmse["before"], rmse

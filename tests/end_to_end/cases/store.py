@@ -98,7 +98,7 @@ def test_damage_is_noticed_made_again_and_said(folder):
 def test_a_folder_that_is_no_store_and_one_of_a_later_program(folder):
     (folder / "thesis").mkdir()
     (folder / "thesis/a.tex").write_text("mine")
-    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no store")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is not a store")
     (folder / "store").mkdir()
     (folder / "store/plumb-store").write_text("plumb store 3\n")
     refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--store", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")

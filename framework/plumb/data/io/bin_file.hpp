@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-/// Reads a .bin file. Points with a coordinate that is no finite number are dropped and counted.
-/// Throws Error: cannot be opened, a size that is no multiple of 16 bytes (cut short).
+/// Reads a .bin file. Points with a non-finite coordinate are dropped and counted.
+/// Throws Error: cannot be opened, a size that is not a multiple of 16 bytes (cut short).
 CloudFile read_bin(const std::filesystem::path& file);
 
 }  // namespace plumb

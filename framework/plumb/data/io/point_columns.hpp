@@ -28,7 +28,7 @@ struct Column {
 
 /// The cloud in `data`, in which every column holds `points` numbers (checked by the caller). Known
 /// columns: x y z; intensity; time or t ([s]; an integer is [ns]); ring; normal_x normal_y normal_z
-/// or nx ny nz. Others are skipped. Points with a coordinate that is no finite number are dropped
+/// or nx ny nz. Others are skipped. Points with a non-finite coordinate are dropped
 /// and counted. Throws Error: no x y z, a ring that is no 16-bit number.
 CloudFile from_bytes(const std::filesystem::path& file, const std::vector<Column>& columns,
                      std::string_view data, std::size_t points);
