@@ -1,5 +1,5 @@
 #pragma once
-/// How one cloud was laid onto another: the result of a registration, one per edge.
+/// How one cloud was registered to another: the result of a registration, one per edge.
 
 #include <cmath>
 

@@ -29,7 +29,7 @@ struct Type {
   std::shared_ptr<const void> (*empty)();   ///< a value without content: of Matches no pairs
 };
 
-/// The type of T, for every T of section 3 of the design: type_of<Segment>().
+/// The type of T, for every type that a port may have: type_of<Segment>().
 template <class T>
 const Type& type_of();
 template <>

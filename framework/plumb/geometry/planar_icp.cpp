@@ -7,7 +7,7 @@
 namespace plumb {
 namespace {
 
-/// A source point where the pose lays it, b, and its partner in the target, a, with the target's
+/// A transformed source point, b, and its correspondence in the target, a, with the target's
 /// normal there.
 struct Pair {
   Eigen::Vector2d a, b, normal;
@@ -129,7 +129,7 @@ class Icp {
   }
 
   /// What the pairs' lines fix, whatever the metric: along a bare corridor that is nothing, however
-  /// many points there are, and only the start's hold is left. Without normals a pair fixes both
+  /// many points there are, and only the prior of the start is left. Without normals a pair fixes both
   /// directions. Brought to the source's coordinates, in which a constraint's error is taken.
   Eigen::Matrix3d information() const {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();

@@ -8,11 +8,11 @@
 
 namespace plumb {
 
-/// A point within `leaf` [m] of the first point of a spot belongs to it, else it is the first of a
+/// A point within `voxel_size` [m] of the first point of a spot belongs to it, else it is the first of a
 /// new spot; what comes out is the mean of each, in the order of the first ones. Unlike cells of a
 /// grid, spots have no sides that would cut a wall's noise in two: means of such parts lie beside
-/// the wall, always on the same side where it runs along the grid, and turn what is laid onto them.
-/// For groups of some thousand points; they must lie within 2^20 leaves of the origin.
+/// the wall, always on the same side where it runs along the grid, and rotate what is registered to them.
+/// For submaps of some thousand points; they must lie within 2^20 voxels of the origin.
 class Spots {
  public:
   explicit Spots(double leaf)

@@ -4,7 +4,7 @@ namespace plumb {
 namespace {
 
 /// A horizontal patch, seen by frame 0 from above (even points) and by frame 1 from below (odd
-/// points), and a lonely point.
+/// points), and an outlier.
 Segment patch() {
   Cloud cloud;
   std::vector<std::uint16_t> frames;

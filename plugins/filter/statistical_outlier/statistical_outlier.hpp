@@ -1,5 +1,5 @@
 #pragma once
-/// Finds points that are lonelier than the others.
+/// Finds points whose mean distance to their neighbours is unusually large.
 
 #include <cstdint>
 #include <functional>

@@ -15,8 +15,8 @@ struct Places {
   std::vector<Eigen::Vector3d> centroids;  ///< of its cloud
 };
 
-/// In metres, ratios and similarities from 0 to 1. The step is the way from one segment to the
-/// next.
+/// In metres, ratios and similarities from 0 to 1. The step is the distance from one segment to
+/// the next.
 struct LoopOptions {
   std::uint32_t candidates = 3;               ///< nearest centroids that are compared by similarity
   std::optional<double> min_path_separation;  ///< between two passes; none: 4 x the median step

@@ -8,7 +8,7 @@ namespace plumb {
 struct ProximityOptions {
   double max_distance = 2;         ///< [m] between two segments' places, at most
   double min_path_separation = 3;  ///< [m] of path between them, at least
-  double turn_length = 0.3;        ///< [m/rad] a turn counts as so much path
+  double turn_length = 0.3;        ///< [m/rad] path length that a rotation counts as
 };
 
 /// For each segment j and each earlier visit one edge, to the nearest segment i of that visit. A

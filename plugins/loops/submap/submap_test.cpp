@@ -95,7 +95,7 @@ double wrong_by(const Drive& drive, const RelativePose& loop) {
   return std::hypot(truth.x - found.x, truth.y - found.y);
 }
 
-TEST(GroupToMap, ClosesARoundWhoseHeadingDrifted) {
+TEST(LoopsSubmap, ClosesARoundWhoseHeadingDrifted) {
   const Drive round = drive(ring(true), 0.002);
   const Loops loops = loops_of(round);
   EXPECT_GE(loops.constraints.relative.size(), 3u);
@@ -106,8 +106,8 @@ TEST(GroupToMap, ClosesARoundWhoseHeadingDrifted) {
   }
 }
 
-TEST(GroupToMap, RefusesWhatIsNotUnique) {
-  // Rows of equal pillars along a straight hall: laid one pillar farther it fits as well.
+TEST(LoopsSubmap, RefusesWhatIsNotUnique) {
+  // Rows of equal pillars along a straight hall: shifted by one pillar it fits as well.
   Plan hall = {{0, 0, 60, 0}, {0, 3, 60, 3}};
   for (int k = 0; k < 60; ++k) hall.push_back({k + 0.5, 1.4, k + 0.5, 1.6});
   Drive there_and_back;
@@ -115,7 +115,7 @@ TEST(GroupToMap, RefusesWhatIsNotUnique) {
   for (int k = 0; k < 80; ++k) {
     at = at * PlanarPose{k < 40 ? 0.4 : -0.4, 0, 0};
     there_and_back.truth.push_back(at);
-    // The way is believed to be 3 % longer than it is.
+    // The path is believed to be 3 % longer than it is.
     there_and_back.drifted.T_world_segment.push_back(in_space({22 + 1.03 * (at.x - 22), at.y, 0}));
     there_and_back.segments.push_back(segment_of(scan(hall, at)));
   }
@@ -125,7 +125,7 @@ TEST(GroupToMap, RefusesWhatIsNotUnique) {
     EXPECT_LT(wrong_by(there_and_back, loop), 0.3);
 }
 
-TEST(GroupToMap, KnowsNoLoopOnAStraightWay) {
+TEST(LoopsSubmap, FindsNoLoopOnAStraightPath) {
   Plan hall = {{0, 0, 40, 0}, {0, 3, 40, 3}};
   Drive straight;
   for (int k = 0; k < 60; ++k) {
@@ -137,7 +137,7 @@ TEST(GroupToMap, KnowsNoLoopOnAStraightWay) {
   EXPECT_TRUE(loops_of(straight).constraints.relative.empty());
 }
 
-TEST(GroupToMap, StepSaysThatPosesOfOthersWereWired) {
+TEST(LoopsSubmap, StepSaysThatPosesOfOthersWereWired) {
   StepRun step(*plumb_module());
   TestContext context;
   step.each("segments", std::vector<Segment>(3)).with("poses", Poses());

@@ -14,7 +14,7 @@ struct PlanarMotion {
   Eigen::Vector2d operator*(const Eigen::Vector2d& p) const;
 };
 
-/// Lays the estimated positions onto the true ones, x and y only, with the least sum of squares;
+/// Aligns the estimated positions with the true ones, x and y only, with the least sum of squares;
 /// where they all lie at one place (within a millimetre) the mean difference of the headings gives
 /// the angle. The identity for no pairs.
 PlanarMotion planar_alignment(const PosePairs& pairs);

@@ -1,6 +1,5 @@
 #pragma once
-/// Lays one planar cloud onto another by trying every pose of a window, without a start worth the
-/// name.
+/// Registers one planar cloud to another by exhaustive search of a window of poses.
 
 #include "plumb/data/cloud.hpp"
 #include "plumb/geometry/correlative_search.hpp"
@@ -30,9 +29,9 @@ struct CorrelativeResult {
   bool retried = false;
 };
 
-/// The pose in the window round `start` that lays `source` onto `target` best, between the cells of
-/// the second search by a parabola. A start that is the identity says nothing (there was no
-/// odometry) and is not trusted. Score 0 and `start` where either has no points in range.
+/// The pose in the window round `start` that registers `source` to `target` best, between the cells of
+/// the second search by a parabola. A start that is the identity is no prior (there was no
+/// odometry). Score 0 and `start` where either has no points in range.
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);
 

@@ -15,7 +15,7 @@ struct RefineOptions {
   double max_normal_angle = 0.8;    ///< [rad] of the points' normals
 };
 
-/// Point-to-plane ICP of segment i onto segment j, both with normals, from T_j_i. Afterwards
+/// Point-to-plane ICP of segment i to segment j, both with normals, from T_j_i. Afterwards
 /// `overlap` is the share of i's points in j's box (and of j's in i's, whichever is less) that have
 /// a point of the other within max_correspondence_distance with a normal that agrees (that share of
 /// the points alone that do not lie on the commonest surfaces, if it is less), `mae` the mean

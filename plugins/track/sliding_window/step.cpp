@@ -147,11 +147,11 @@ struct TrackSlidingWindow : WholeStep {
     count("scans that did not fit", tracked.unfit);
     count("windows restarted", tracked.restarts);
     if (tracked.unfit)
-      context.warn(std::to_string(tracked.unfit) + " of " + std::to_string(tracked.laid) +
+      context.warn(std::to_string(tracked.unfit) + " of " + std::to_string(tracked.registered) +
                    " scans do not fit those before them: the predicted motion is used there");
-    const double n = std::max<double>(1, static_cast<double>(tracked.laid));
+    const double n = std::max<double>(1, static_cast<double>(tracked.registered));
     Out out;
-    out.metrics.add("registrations", static_cast<double>(tracked.laid), "")
+    out.metrics.add("registrations", static_cast<double>(tracked.registered), "")
         .add("iterations", tracked.iterations / n, "")
         .add("mae", tracked.mae / n, "m")
         .add("overlap", tracked.overlap / n, "")

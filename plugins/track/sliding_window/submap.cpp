@@ -60,8 +60,8 @@ void Submap::find_normals() {
   }
 }
 
-IcpResult Submap::lay(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const {
-  IcpResult result = align(cloud_, *tree_, scan, newest().inverse() * start, options);
+IcpResult Submap::align(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const {
+  IcpResult result = plumb::align(cloud_, *tree_, scan, newest().inverse() * start, options);
   result.T = newest() * result.T;
   return result;
 }
@@ -83,11 +83,11 @@ double Submap::score(const Cloud& scan, const PlanarPose& pose, const PlanarPose
 std::optional<PlanarPose> Submap::search(const Cloud& scan, const PlanarPose& start, bool known,
                                          Breadth breadth) const {
   const PlanarPose centre = newest().inverse() * start;
-  const double reach =
+  const double window =
       breadth == Breadth::near ? options_.search_window : options_.lost_search_window;
   const auto peak =
       best_pose(field(), scan.x, scan.y,
-                {centre, reach, reach, breadth == Breadth::near ? options_.search_angle : M_PI,
+                {centre, window, window, breadth == Breadth::near ? options_.search_angle : M_PI,
                  prior_at(centre, known)},
                 yaw_step_for(scan.x, scan.y, search_resolution), 0);
   if (!peak) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-/// The newest scans of a window as one group of points, and what lays a scan onto it.
+/// The newest scans of a window as one submap, and registration of a scan to it.
 
 #include <deque>
 #include <optional>
@@ -16,15 +16,15 @@ struct SubmapOptions {
   std::optional<double> voxel_size =
       0.05;                         ///< [m] points so near to one that is kept become one with it
   double radius = 0.25;             ///< [m] of the neighbourhood that a normal is taken from
-  double search_window = 0.6;       ///< [m] half the width of a search
-  double search_angle = 30 * deg;   ///< [rad] half the width of a search in heading
-  double lost_search_window = 1.5;  ///< [m] half the width of a search in all headings
+  double search_window = 0.6;       ///< [m] half width of a search
+  double search_angle = 30 * deg;   ///< [rad] half width of a search in heading
+  double lost_search_window = 1.5;  ///< [m] half width of a search in all headings
 };
 
 enum class Breadth { near, all_headings };
 
 /// Holds up to `frames` scans [m, in the plane], each with its pose; scans are referred to and must
-/// outlive the group. The group's points are in the newest scan's coordinates.
+/// outlive the submap. The submap's points are in the newest scan's coordinates.
 class Submap {
  public:
   explicit Submap(const SubmapOptions& options) : options_(options) {}
@@ -38,9 +38,9 @@ class Submap {
   /// `with_normals`: those of lines.
   void add(const Cloud& scan, const PlanarPose& T_world_scan, bool with_normals);
 
-  /// Lays a scan on by ICP from `start` on; both poses are T_world_scan. The group must not be
-  /// empty.
-  IcpResult lay(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const;
+  /// Registers a scan by ICP with the initial guess `start`; both poses are T_world_scan. The submap
+  /// must not be empty.
+  IcpResult align(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const;
   /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both
   /// T_world_scan. `known`: the start comes from odometry, and little off is far off.
   double score(const Cloud& scan, const PlanarPose& pose, const PlanarPose& start,

@@ -50,12 +50,12 @@ class Tracker {
     if (!known) icp.start_sigma.reset();
     const Cloud& scan = *scans_[edge.j];
 
-    IcpResult found = submap_.lay(scan, start, icp);
+    IcpResult found = submap_.align(scan, start, icp);
     std::uint32_t iterations = found.iterations;
     const auto search = [&](Breadth breadth) {
       const auto peak = submap_.search(scan, start, known, breadth);
       if (!peak) return;
-      const IcpResult other = submap_.lay(scan, *peak, icp);
+      const IcpResult other = submap_.align(scan, *peak, icp);
       iterations += other.iterations;
       if (submap_.score(scan, other.T, start, known) > submap_.score(scan, found.T, start, known))
         found = other;
@@ -68,7 +68,7 @@ class Tracker {
       if (found.overlap < options_.min_overlap) search(Breadth::all_headings);
     }
     const bool fits = found.pairs >= 3 && found.overlap >= options_.min_overlap;
-    ++result_.laid;
+    ++result_.registered;
     result_.iterations += iterations, result_.mae += found.mae, result_.overlap += found.overlap;
     result_.unfit += !fits;
     place(edge.j, fits ? found.T : start);
