@@ -17,7 +17,7 @@ struct OccupancyGrid : WholeStep {
   using Params = GridOptions;
 
   static void describe(Declaration<OccupancyGrid>& is) {
-    is.name("map.occupancy_grid").version(1).source("ours");
+    is.name("map.occupancy_grid").version(1).source("[Moravec1985], [Hornung2013]");
     is.summary("Builds an occupancy grid from 2-D scans by ray casting.");
     is.input("frames", &In::frames, "the scans");
     is.input("trajectory", &In::trajectory, "the sensor's pose for each scan");
