@@ -121,7 +121,7 @@ def test_a_preset_is_also_a_pipeline_by_itself(folder):
 def test_preset_handheld_solid_state_straightens_a_walk(folder):
     walk, out = sequence("walk"), folder / "out"
     cascade(walk, out, "--preset", HANDHELD, "--set", f"truth={walk / 'truth.tum'}")
-    # The walk drifts by less than the pairs' cap, so its match RMSE starts near the noise: the ATE is what tells.
+    # The walk drifts by less than the pairs' largest distance, so its match RMSE starts near the noise: the ATE is what tells.
     metrics_tell_what_happened(out, straightens(walk, out, factor=3), falls=1.2)
 
 

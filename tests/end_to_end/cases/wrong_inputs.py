@@ -222,12 +222,12 @@ def test_an_unknown_parameter(folder):
 
 
 def test_an_unknown_unit(folder):
-    wrong_pipeline(folder, "gate: [4 m,", "gate: [4 mtr,", "mtr", "Known: m, cm")
+    wrong_pipeline(folder, "max_correspondence_distance: [4 m,", "max_correspondence_distance: [4 mtr,", "mtr", "Known: m, cm")
 
 
 def test_an_unknown_name_behind_set(folder):
-    for setting, word in (("coarse.gaet=2m", "Did you mean 'gate'?"), ("laef=1m", "Did you mean 'leaf'?"), ("coarse.kept.clustres=3", "clustres"), ("leaf=1", "unit"),
-                          ("leaf", "=")):
+    for setting, word in (("coarse.max_corespondence_distance=2m", "Did you mean 'max_correspondence_distance'?"), ("voxel_sice=1m", "Did you mean 'voxel_size'?"), ("coarse.kept.clustres=3", "clustres"), ("voxel_size=1", "unit"),
+                          ("voxel_size", "=")):
         said = plumb("check", CASCADE, "--set", "input=.", "--set", setting, code=WRONG_INPUT)
         said.has("--set", word)
 
