@@ -33,7 +33,7 @@ struct Edges {
 /// should be T_j q.
 struct Matches {
   std::vector<Eigen::Vector3f> p, q;
-  std::vector<std::uint32_t> index_p, index_q;  ///< key points (features) or cloud points (nearest)
+  std::vector<std::uint32_t> index_p, index_q;  ///< keypoints (features) or cloud points (nearest)
   std::vector<float> weight;
   std::vector<std::uint8_t> at_border;    ///< 1 where p or q lies at its cloud's border
   std::vector<Eigen::Vector3f> normal_p;  ///< unit normals in i's coordinates; empty where unknown

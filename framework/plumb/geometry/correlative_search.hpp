@@ -1,6 +1,6 @@
 #pragma once
-/// The pose in a window that registers points best to a likelihood field: exhaustive search of a grid
-/// of poses by branch and bound. Sources: [Olson2009], [Hess2016].
+/// The pose in a window that registers points best to a likelihood field: exhaustive search of a
+/// grid of poses by branch and bound. Sources: [Olson2009], [Hess2016].
 
 #include <optional>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace plumb {
 
-/// A prior on the pose: a score is lowered by up to `weight`, by half of it at `translation_sigma` [m]
-/// or at `rotation_sigma` [rad] from `pose`. Where the points do not constrain the pose, as along a
-/// corridor, the prior decides; where they do by more than `weight`, it has no influence.
+/// A prior on the pose: a score is lowered by up to `weight`, by half of it at `translation_sigma`
+/// [m] or at `rotation_sigma` [rad] from `pose`. Where the points do not constrain the pose, as
+/// along a corridor, the prior decides; where they do by more than `weight`, it has no influence.
 struct Prior {
   PlanarPose pose;
   double weight = 0, translation_sigma = 0.05, rotation_sigma = 0.05;

@@ -129,8 +129,8 @@ class Icp {
   }
 
   /// What the pairs' lines fix, whatever the metric: along a bare corridor that is nothing, however
-  /// many points there are, and only the prior of the start is left. Without normals a pair fixes both
-  /// directions. Brought to the source's coordinates, in which a constraint's error is taken.
+  /// many points there are, and only the prior of the start is left. Without normals a pair fixes
+  /// both directions. Brought to the source's coordinates, in which a constraint's error is taken.
   Eigen::Matrix3d information() const {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
     const bool normals = target_.has_normals();

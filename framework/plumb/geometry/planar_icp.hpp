@@ -54,9 +54,9 @@ struct IcpResult {
       Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see planar_icp.cpp
 };
 
-/// Registers `source` to `target`, with the initial guess `start`. Pairs are each source point and the nearest target
-/// point (`tree` holds the target's points, with z = 0). Fewer than 3 pairs: the pose stays as it
-/// is and overlap says so. With 0 iterations the start is only evaluated.
+/// Registers `source` to `target`, with the initial guess `start`. Pairs are each source point and
+/// the nearest target point (`tree` holds the target's points, with z = 0). Fewer than 3 pairs: the
+/// pose stays as it is and overlap says so. With 0 iterations the start is only evaluated.
 IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
                 const PlanarPose& start, const IcpOptions& options);
 

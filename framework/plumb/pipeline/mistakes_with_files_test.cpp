@@ -39,7 +39,7 @@ TEST(Mistakes, OfNamingFilesThatAreNotThere) {
   EXPECT_THAT(in_file, HasSubstr("Did you mean '" + place + "/street'?"));
   const std::string in_set = told_for(place + "/far/away", false);
   EXPECT_THAT(in_set, HasSubstr("--set input=" + place + "/far/away: step 'sequence'"));
-  EXPECT_THAT(in_set, HasSubstr("There is not a directory '" + place + "/far' either."));
+  EXPECT_THAT(in_set, HasSubstr("There is no folder '" + place + "/far' either."));
   EXPECT_THAT(in_set, HasSubstr("Asked for at " + place + "/a.yaml:8:3."));
 }
 

@@ -67,7 +67,7 @@ void Store::refuse_unwritable(int why) const {
 /// For this user alone, where it is not there yet; a folder that is empty stays as it is.
 void Store::make_folder(StoreRole role) const {
   if (role == StoreRole::worker)
-    refuse("there is not a store; a worker must see the folder of its run at the same place");
+    refuse("there is no store; a worker must see the folder of its run at the same place");
   std::error_code error;
   const fs::path marked = folder_ / mark_file;
   if (fs::is_directory(folder_, error) && access(folder_.c_str(), R_OK | W_OK | X_OK) != 0)

@@ -63,7 +63,7 @@ struct DescribeFpfh : SegmentStep {
              {params.radius, params.max_neighbours, params.min_neighbours, params.border_angle},
              context);
     if (result.left_out > 0)
-      context.count("key points with too few neighbours left out", result.left_out);
+      context.count("keypoints with too few neighbours left out", result.left_out);
     return {std::move(result.features)};
   }
 };

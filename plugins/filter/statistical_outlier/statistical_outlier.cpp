@@ -15,8 +15,8 @@ constexpr std::size_t group_size = 8;
 
 /// Mean distances of a few near points at a time, which share one search.
 ///
-/// With c the middle of the group, h its farthest point's distance from c and r the distance of c's
-/// last wanted neighbour: each point p of the group has its wanted mean_k within r + |p - c| of
+/// With c the middle of the block, h its farthest point's distance from c and r the distance of c's
+/// last wanted neighbour: each point p of the block has its wanted neighbours within r + |p - c| of
 /// p, so all of them lie within r + 2h of c.
 class GroupSearch {
  public:
@@ -31,7 +31,7 @@ class GroupSearch {
     for (const auto k : group) h = std::max(h, (cloud_.point(k) - c).norm());
     const std::size_t n = tree_.nearest(c, wanted_, nearest_.data());
     const float r = std::sqrt(nearest_[n - 1].squared_distance);
-    // A group with much air in it would have to look at too many points; so would all points of a
+    // A block with much air in it would have to look at too many points; so would all points of a
     // cloud that is too small.
     if (n < wanted_ || h > 1.5f * r) {
       for (const auto k : group) means[k] = alone(cloud_.point(k));

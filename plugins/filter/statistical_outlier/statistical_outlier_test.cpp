@@ -153,7 +153,8 @@ TEST(StatisticalOutlier, DropsTheBirdsAndCountsThem) {
 #ifdef PLUMB_HAS_PCL
 TEST(StatisticalOutlier, KeepsThePointsThatPclKeeps) {
   const Cloud cloud = wall_with_birds(20000, 400);
-  const auto theirs = twins::PclCloud(cloud.x, cloud.y, cloud.z, {}, {}, {}).without_outliers(20, 2);
+  const auto theirs =
+      twins::PclCloud(cloud.x, cloud.y, cloud.z, {}, {}, {}).without_outliers(20, 2);
   const auto ours = not_beyond(means(cloud, 20), 2);
   EXPECT_EQ(std::vector<int>(ours.begin(), ours.end()), theirs);
 }

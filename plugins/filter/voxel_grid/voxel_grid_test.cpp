@@ -99,13 +99,13 @@ TEST(VoxelGrid, KeepsMillimetresFarFromTheOrigin) {
 }
 
 TEST(VoxelGrid, ServesCloudsAsWideAsItPromisesAndRefusesWiderOnes) {
-  const Cloud wide = cloud_of({{-1048576, 0, 0}, {1048575, 0, 0}});  // 2^21 cells of 1 m
+  const Cloud wide = cloud_of({{-1048576, 0, 0}, {1048575, 0, 0}});  // 2^21 voxels of 1 m
   EXPECT_EQ(thin(wide, 1).cloud.size(), 2u);
   try {
     thin(wide, 0.99);
     FAIL() << "not refused";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("more than 2^21 cells"));
+    EXPECT_THAT(error.what(), HasSubstr("more than 2^21 voxels"));
     EXPECT_THAT(error.what(), HasSubstr("along x"));
   }
 }

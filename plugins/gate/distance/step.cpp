@@ -69,7 +69,7 @@ struct GateDistance : WholeStep {
     };
     count("scans dropped because they jump", gated.far);
     count("scans dropped because they have too few points", gated.empty);
-    count("windows started again", gated.resets);
+    count("windows restarted", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)
       context.warn("fewer than two scans of " + std::to_string(scans.size()) +

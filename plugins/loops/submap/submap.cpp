@@ -12,7 +12,8 @@
 namespace plumb {
 namespace {
 
-/// Planar points, one a cell of edge length `cell`: its first. Those beyond `range` of the origin are left out.
+/// Planar points, one a cell of edge length `cell`: its first. Those beyond `range` of the origin
+/// are left out.
 class Places {
  public:
   Places(double cell, double range) : per_metre_(1 / cell), square_(range * range) {}
@@ -84,8 +85,8 @@ class LoopFinder {
     return std::hypot(poses_[i].x - poses_[j].x, poses_[i].y - poses_[j].y);
   }
 
-  /// The nearest segment of each earlier visit, a visit being a stretch of path within the window and no longer
-  /// than the map that the submap is registered to.
+  /// The nearest segment of each earlier visit, a visit being a stretch of path within the window
+  /// and no longer than the map that the submap is registered to.
   std::vector<std::uint32_t> visits(std::uint32_t j, const std::vector<double>& lengths) const {
     std::vector<std::uint32_t> list;
     std::optional<std::uint32_t> nearest, last, first;

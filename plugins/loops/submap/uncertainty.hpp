@@ -11,7 +11,8 @@ namespace plumb {
 /// The graph of consecutive segments and of the loops that are known.
 class Paths {
  public:
-  /// `turn_length` [m/rad]: path length that a rotation counts as. A loop counts as `loop_length` [m].
+  /// `turn_length` [m/rad]: path length that a rotation counts as. A loop counts as `loop_length`
+  /// [m].
   Paths(const Poses& poses, const Constraints* loops, double turn_length, double loop_length);
 
   /// Travelled from the first segment to each [m].

@@ -35,8 +35,8 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
-  const LikelihoodField coarse(fixed.x, fixed.y, options.resolution, options.sigma, 3 * options.sigma,
-                               levels);
+  const LikelihoodField coarse(fixed.x, fixed.y, options.resolution, options.sigma,
+                               3 * options.sigma, levels);
   const double step = yaw_step_for(moving.x, moving.y, options.resolution);
   auto peak = best_pose(
       coarse, moving.x, moving.y,
@@ -58,8 +58,8 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   const double room = 1.2 * options.resolution;
   const auto best = best_pose(fine, moving.x, moving.y, {peak->pose, room, room, 1.5 * step, prior},
                               result.yaw_step, 0);
-  result.T =
-      best ? between_cells(fine, moving.x, moving.y, best->pose, result.yaw_step, prior) : peak->pose;
+  result.T = best ? between_cells(fine, moving.x, moving.y, best->pose, result.yaw_step, prior)
+                  : peak->pose;
   return result;
 }
 

@@ -29,8 +29,8 @@ struct CorrelativeResult {
   bool retried = false;
 };
 
-/// The pose in the window round `start` that registers `source` to `target` best, between the cells of
-/// the second search by a parabola. A start that is the identity is no prior (there was no
+/// The pose in the window round `start` that registers `source` to `target` best, between the cells
+/// of the second search by a parabola. A start that is the identity is no prior (there was no
 /// odometry). Score 0 and `start` where either has no points in range.
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);

@@ -36,7 +36,7 @@ struct GraphOptions {
   int max_iterations = 100;        ///< of Levenberg-Marquardt in each round, at most
   bool estimate_variance = false;  ///< whether edges count, beside sequential constraints, by how
                                    ///< far they disagree with each other
-  bool uncertainty = false;  ///< whether the poses' covariances are computed
+  bool uncertainty = false;        ///< whether the poses' covariances are computed
   double uncertainty_per_metre =
       4e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the
              ///< first: clouds share a bias

@@ -38,7 +38,9 @@ struct TrackSlidingWindow : WholeStep {
   };
 
   static void describe(Declaration<TrackSlidingWindow>& is) {
-    is.name("track.sliding_window").version(1).source("[Zhang2023] 2; registration to the submap is ours");
+    is.name("track.sliding_window")
+        .version(1)
+        .source("[Zhang2023] 2; registration to the submap is ours");
     is.summary("Tracks a 2-D laser by registering each scan to the submap of the scans before it.");
     is.input("segments", &In::segments, "the scans in order, one per segment, in the plane");
     is.input("poses", &In::poses, "their poses from odometry; all equal where there is none");

@@ -60,7 +60,8 @@ void Submap::find_normals() {
   }
 }
 
-IcpResult Submap::align(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const {
+IcpResult Submap::align(const Cloud& scan, const PlanarPose& start,
+                        const IcpOptions& options) const {
   IcpResult result = plumb::align(cloud_, *tree_, scan, newest().inverse() * start, options);
   result.T = newest() * result.T;
   return result;

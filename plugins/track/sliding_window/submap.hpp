@@ -38,8 +38,8 @@ class Submap {
   /// `with_normals`: those of lines.
   void add(const Cloud& scan, const PlanarPose& T_world_scan, bool with_normals);
 
-  /// Registers a scan by ICP with the initial guess `start`; both poses are T_world_scan. The submap
-  /// must not be empty.
+  /// Registers a scan by ICP with the initial guess `start`; both poses are T_world_scan. The
+  /// submap must not be empty.
   IcpResult align(const Cloud& scan, const PlanarPose& start, const IcpOptions& options) const;
   /// How well a scan lies at `pose` [0 to 1], less what is lost for its distance from `start`: both
   /// T_world_scan. `known`: the start comes from odometry, and little off is far off.

@@ -31,9 +31,9 @@ struct Tracked {
 
 /// `scans` in order, `initial` where they are as the odometry has it, `chain` from gate.distance:
 /// each accepted scan and the one before; a kind other than sequential starts the window again,
-/// after the scan was registered to the old one. Where the initial poses are all the same (there is no
-/// odometry) the motion before is expected to go on, as if scans were evenly spaced: the stamps of
-/// real logs come in bursts. Throws Error where sizes differ or the edges are no chain.
+/// after the scan was registered to the old one. Where the initial poses are all the same (there is
+/// no odometry) the motion before is expected to go on, as if scans were evenly spaced: the stamps
+/// of real logs come in bursts. Throws Error where sizes differ or the edges are no chain.
 Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
               const TrackOptions& options);
 

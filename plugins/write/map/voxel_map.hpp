@@ -17,7 +17,7 @@
 namespace plumb {
 
 /// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should
-/// one come: what is open is what the sensor sees at present, however long the way. Closed tiles
+/// one come: what is open is what the sensor sees at present, however long the path. Closed tiles
 /// wait in a temporary file once they are many. What is written depends on the points in each cell
 /// and their frames' order alone.
 class VoxelMap {

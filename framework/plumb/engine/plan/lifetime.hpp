@@ -12,7 +12,7 @@ namespace plumb {
 enum class Keeping : std::uint8_t {
   passing,  ///< made anew whenever asked for: frames, and clouds that only one following step takes
   kept,     ///< made once, kept as long as someone may ask
-  remembered,  ///< kept, and looked up in memory too when there is not a store: the step may come
+  remembered,  ///< kept, and looked up in memory too when there is no store: the step may come
                ///< again with the same inputs
 };
 

@@ -29,7 +29,7 @@ std::string cure(const fs::path& path) {
   std::sort(beside.begin(), beside.end());
   const std::string near = nearest(missing.filename().string(), beside);
   if (!near.empty()) return "Did you mean '" + (missing.parent_path() / near).string() + "'?";
-  return missing == path ? "" : "There is not a directory '" + missing.string() + "' either.";
+  return missing == path ? "" : "There is no folder '" + missing.string() + "' either.";
 }
 
 /// Calls `look(step, type, value, origin)` for each value of a path parameter.
