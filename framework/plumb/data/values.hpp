@@ -17,7 +17,7 @@ struct Descriptor {
   std::vector<float> values;
 };
 
-/// Key points of a segment [m, segment coordinates] with one vector each.
+/// Keypoints of a segment [m, segment coordinates] with one vector each.
 struct Features {
   std::uint32_t dimension = 0;  ///< length of each vector (FPFH: 33)
   std::vector<Eigen::Vector3f> points;
