@@ -1,6 +1,6 @@
-/// FPFH with the normals given, beside PCL's FPFHEstimationOMP at equal radius and key points, one
-/// thread. Per point of the cloud: each one's histogram is made once, key point or not. The
-/// arguments are the radius and the spacing of key points in decimetres; 0: every point is one.
+/// FPFH with the normals given, beside PCL's FPFHEstimationOMP at equal radius and keypoints, one
+/// thread. Per point of the cloud: each one's histogram is made once, keypoint or not. The
+/// arguments are the radius and the spacing of keypoints in decimetres; 0: every point is one.
 
 #include <numeric>
 
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> keys_of(const benchmark::State& state, const Cloud& c
 
 void say(benchmark::State& state, const Cloud& cloud, const std::vector<std::uint32_t>& keys) {
   per(state, "point", static_cast<double>(cloud.size()));
-  state.counters["key points"] = static_cast<double>(keys.size());
+  state.counters["keypoints"] = static_cast<double>(keys.size());
 }
 
 void ours(benchmark::State& state) {

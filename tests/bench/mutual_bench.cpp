@@ -1,5 +1,5 @@
 /// Mutual nearest neighbours of two neighbouring segments' FPFH (33-D), beside comparing all pairs
-/// and beside FLANN's exact tree. The argument is the spacing of key points in decimetres.
+/// and beside FLANN's exact tree. The argument is the spacing of keypoints in decimetres.
 
 #include <map>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t bins = 33;
 
-/// The features of both segments, 33 numbers a key point.
+/// The features of both segments, 33 numbers a keypoint.
 struct Ends {
   std::vector<float> a, b;
 
@@ -33,7 +33,7 @@ struct Ends {
     return all.try_emplace(state.range(0), leaf).first->second;
   }
   void say(benchmark::State& state) const {
-    per(state, "key point", static_cast<double>((a.size() + b.size()) / bins));
+    per(state, "keypoint", static_cast<double>((a.size() + b.size()) / bins));
   }
 };
 

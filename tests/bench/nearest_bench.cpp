@@ -27,7 +27,7 @@ void ours(benchmark::State& state) {
   const Segment i = segment(0), j = segment(1);
   j.tree();
   NearestOptions options;
-  options.max = max;
+  options.max_correspondence_distance = max;
   std::size_t pairs = 0;
   for (auto _ : state) pairs = nearest_pairs(i, j, relative(), options).size();
   say(state, pairs);

@@ -1,4 +1,4 @@
-/// Dropping lonely points (20 neighbours, 2 deviations) beside PCL's StatisticalOutlierRemoval;
+/// Removal of outliers (mean_k 20, stddev_mul_thresh 2) beside PCL's StatisticalOutlierRemoval;
 /// both build their tree.
 
 #include "../../plugins/filter/statistical_outlier/statistical_outlier.hpp"
@@ -30,7 +30,7 @@ void pcl(benchmark::State& state) {
   const Cloud& cloud = thinned_segment(0, leaf);
   const twins::PclCloud twin(cloud.x, cloud.y, cloud.z, {}, {}, {});
   std::size_t left = 0;
-  for (auto _ : state) left = twin.without_lonely(20, 2).size();
+  for (auto _ : state) left = twin.without_outliers(20, 2).size();
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["left"] = static_cast<double>(left);
 }

@@ -40,7 +40,7 @@ def verify(work, world):
 
 def earlier(work, world):
     """An earlier run with a coarser map: half of the store serves, and its results are replaced."""
-    plumb(*small("--set", "leaf=1m")(work, world))
+    plumb(*small("--set", "voxel_size=1m")(work, world))
 
 
 def the_same(work, world):

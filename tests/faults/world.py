@@ -25,7 +25,7 @@ def make_input(folder):
     """A sequence of six frames; its files stay as they are, for keys count their times."""
     plumb("simulate", "out_and_back", "--frames", 6, "--length", "12m", "--lines", 4, "--columns", 64, "--drift", 1, "-o", folder / "sequence")
     (folder / "small.yaml").write_bytes((HERE / "small.yaml").read_bytes())
-    preset = "plumb: 1\nname: coarse\nabout: a map of fewer points\nextends: small.yaml\nset:\n  leaf: 1 m\n"
+    preset = "plumb: 1\nname: coarse\nabout: a map of fewer points\nextends: small.yaml\nset:\n  voxel_size: 1 m\n"
     (folder / "coarse.yaml").write_text(preset)
 
 

@@ -63,11 +63,11 @@ std::vector<float> PclCloud::esf() const {
   return {signature[0].histogram, signature[0].histogram + 640};
 }
 
-std::vector<int> PclCloud::without_lonely(int neighbours, double deviations) const {
+std::vector<int> PclCloud::without_outliers(int mean_k, double stddev_mul_thresh) const {
   pcl::StatisticalOutlierRemoval<pcl::PointXYZ> remove;
   remove.setInputCloud(held_->points);
-  remove.setMeanK(neighbours);
-  remove.setStddevMulThresh(deviations);
+  remove.setMeanK(mean_k);
+  remove.setStddevMulThresh(stddev_mul_thresh);
   std::vector<int> kept;
   remove.filter(kept);
   return kept;

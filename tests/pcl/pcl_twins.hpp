@@ -27,7 +27,7 @@ class PclCloud {
   /// ESFEstimation: 640 numbers. Seeded by the clock, in whole seconds.
   std::vector<float> esf() const;
   /// StatisticalOutlierRemoval: the indices of the points that it keeps.
-  std::vector<int> without_lonely(int neighbours, double deviations) const;
+  std::vector<int> without_outliers(int mean_k, double stddev_mul_thresh) const;
 
  private:
   struct Held;

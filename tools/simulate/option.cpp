@@ -14,7 +14,7 @@ double take_number(std::string& text, const std::string& place) {
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value))
-    throw Error(place + ": '" + text + "' is no number; write for example 2.5");
+    throw Error(place + ": '" + text + "' is not a number; write for example 2.5");
   text.erase(0, static_cast<std::size_t>(end - text.data()));
   text.erase(0, text.find_first_not_of(' ') == std::string::npos ? text.size()
                                                                  : text.find_first_not_of(' '));
@@ -51,7 +51,7 @@ std::int64_t parse_whole(const OptionRange& option, const std::string& text,
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    throw Error(place + ": '" + text + "' is no whole number; write for example 64");
+    throw Error(place + ": '" + text + "' is not a whole number; write for example 64");
   if (static_cast<double>(value) < option.low || static_cast<double>(value) > option.high)
     throw Error(place + ": " + text + " is out of range; allowed is " + shortest(option.low) +
                 " to " + shortest(option.high));

@@ -32,7 +32,7 @@ struct OptionOf : OptionRange {
 };
 
 /// The number in `text`, SI. A quantity without its unit is in SI if `bare_is_si`, else refused.
-/// Throws Error, which begins with `place`, for what is no number, out of range or in a unit of
+/// Throws Error, which begins with `place`, for what is not a number, out of range or in a unit of
 /// something else.
 double parse_quantity(const OptionRange& option, std::string text, bool bare_is_si,
                       const std::string& place);

@@ -40,7 +40,7 @@ using Option = OptionOf<Scene>;
 const std::vector<Option>& options();
 
 /// Sets the option from text. A quantity without its unit is in SI if `bare_is_si`, else refused.
-/// Throws Error, which begins with `place`, for a value that is no number, out of range or in a
+/// Throws Error, which begins with `place`, for a value that is not a number, out of range or in a
 /// unit of something else.
 void set(Scene& scene, const Option& option, const std::string& text, bool bare_is_si,
          const std::string& place);

@@ -38,7 +38,7 @@ std::vector<SceneEntry> scene_entries(const std::filesystem::path& file) {
     throw Error(place_of(file, e.mark) + ": " + e.msg + "; correct the YAML");
   }
   if (!root.IsMap())
-    throw Error(file.string() + ": is no map of options; write lines such as 'path: city_loop'");
+    throw Error(file.string() + ": is not a map of options; write lines such as 'path: city_loop'");
   std::set<std::string> seen;
   std::vector<SceneEntry> entries;
   for (const auto& pair : root) {

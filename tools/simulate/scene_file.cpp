@@ -41,8 +41,8 @@ Scene read_scene(const fs::path& file) {
   }
   if (follows_file(scene)) {
     if (!scene.path.ends_with(".tum"))
-      throw Error(file.string() + ": path '" + scene.path + "' is no route and no .tum file; " +
-                  suggestion(scene.path, route_names()));
+      throw Error(file.string() + ": path '" + scene.path +
+                  "' is neither a route nor a .tum file; " + suggestion(scene.path, route_names()));
     scene.path = beside(file, scene.path);
   }
   return scene;

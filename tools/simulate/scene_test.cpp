@@ -72,7 +72,7 @@ TEST(Scene, SaysWhereAMistakeIsAndWhatWasMeant) {
   EXPECT_THAT(refused("noise: 2\n"),
               testing::AllOf(HasSubstr("scene.yaml:1:8:"), HasSubstr("lacks its unit")));
   EXPECT_THAT(refused("noise: 2 deg\n"), HasSubstr("ends in 'deg'"));
-  EXPECT_THAT(refused("noise: two cm\n"), HasSubstr("is no number"));
+  EXPECT_THAT(refused("noise: two cm\n"), HasSubstr("is not a number"));
   EXPECT_THAT(refused("noise: 2 km\n"), HasSubstr("out of range"));
   EXPECT_THAT(refused("lines: 6.5\n"), HasSubstr("no whole number"));
   EXPECT_THAT(refused("lines: 0\n"), HasSubstr("out of range"));
@@ -81,7 +81,7 @@ TEST(Scene, SaysWhereAMistakeIsAndWhatWasMeant) {
   EXPECT_THAT(refused("path: city_lop\n"), HasSubstr("did you mean 'city_loop'?"));
   EXPECT_THAT(refused("path: [a, b]\n"), HasSubstr("takes one value"));
   EXPECT_THAT(refused("drift_from: a.tum\n"), HasSubstr("takes two files"));
-  EXPECT_THAT(refused("- a\n"), HasSubstr("is no map"));
+  EXPECT_THAT(refused("- a\n"), HasSubstr("is not a map"));
   EXPECT_THAT(refused("path: {a\n"), HasSubstr("scene.yaml:"));
 }
 

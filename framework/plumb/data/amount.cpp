@@ -45,7 +45,7 @@ double amount(const std::string& option, const std::string& text, std::span<cons
       return number * unit.factor;
     known += (known.empty() ? "" : ", ") + std::string(unit.symbol);
   }
-  throw Error(option + " " + text + ": is no amount; give a number and one of " + known +
+  throw Error(option + " " + text + ": is not an amount; give a number and one of " + known +
               ", as in " + example);
 }
 

@@ -73,16 +73,17 @@ const char* fault_of_edge(const Edge& edge) {
     return "an edge with a non-finite number";
   return "";
 }
-const char* fault_of_relative(const RelativePose& relation) {
-  return relation.information.allFinite() ? fault_of_pose(relation.T_i_j) : non_finite_information;
+const char* fault_of_relative(const RelativePose& constraint) {
+  return constraint.information.allFinite() ? fault_of_pose(constraint.T_i_j)
+                                            : non_finite_information;
 }
-const char* fault_of_absolute(const AbsolutePose& relation) {
-  return relation.information.allFinite() ? fault_of_pose(relation.T_world_i)
-                                          : non_finite_information;
+const char* fault_of_absolute(const AbsolutePose& constraint) {
+  return constraint.information.allFinite() ? fault_of_pose(constraint.T_world_i)
+                                            : non_finite_information;
 }
-const char* fault_of_point(const AbsolutePoint& relation) {
-  if (!relation.information.allFinite()) return non_finite_information;
-  return relation.p_i.allFinite() && relation.p_world.allFinite() ? "" : non_finite_point;
+const char* fault_of_point(const AbsolutePoint& constraint) {
+  if (!constraint.information.allFinite()) return non_finite_information;
+  return constraint.p_i.allFinite() && constraint.p_world.allFinite() ? "" : non_finite_point;
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ const char* fault_in(const Trajectory& trajectory) {
 /// What a sensor gave may be no number; the steps that merge frames leave it out.
 const char* fault_in(const Frame& frame) { return fault_of_columns(frame.cloud); }
 
-const char* fault_in(const Range& range) {
+const char* fault_in(const FrameRange& range) {
   if (range.end <= range.first || range.T_segment_frame.size() != range.size())
     return "a range of frames that does not have a pose for each of them";
   if (const char* fault = fault_of_pose(range.T_world_segment); *fault) return fault;
@@ -166,10 +167,12 @@ const char* fault_in(const Registration& registration) {
                                               : non_finite_information;
 }
 
-const char* fault_in(const Relations& relations) {
-  if (const char* fault = fault_of_all(relations.relative, fault_of_relative); *fault) return fault;
-  if (const char* fault = fault_of_all(relations.absolute, fault_of_absolute); *fault) return fault;
-  return fault_of_all(relations.points, fault_of_point);
+const char* fault_in(const Constraints& constraints) {
+  if (const char* fault = fault_of_all(constraints.relative, fault_of_relative); *fault)
+    return fault;
+  if (const char* fault = fault_of_all(constraints.absolute, fault_of_absolute); *fault)
+    return fault;
+  return fault_of_all(constraints.points, fault_of_point);
 }
 
 const char* fault_in(const Poses& poses) {

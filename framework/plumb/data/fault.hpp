@@ -13,14 +13,14 @@ namespace plumb {
 /// a Document is judged where it becomes a file.
 const char* fault_in(const Trajectory& trajectory);
 const char* fault_in(const Frame& frame);
-const char* fault_in(const Range& range);
+const char* fault_in(const FrameRange& range);
 const char* fault_in(const Segment& segment);
 const char* fault_in(const Descriptor& descriptor);
 const char* fault_in(const Features& features);
 const char* fault_in(const Edges& edges);
 const char* fault_in(const Matches& matches);
 const char* fault_in(const Registration& registration);
-const char* fault_in(const Relations& relations);
+const char* fault_in(const Constraints& constraints);
 const char* fault_in(const Poses& poses);
 const char* fault_in(const GridMap& map);
 const char* fault_in(const Metrics& metrics);

@@ -23,8 +23,8 @@ std::string fault_after(const T& sound, Spoil spoil) {
   return fault_in(spoilt);
 }
 
-Range sound_range() {
-  Range range;
+FrameRange sound_range() {
+  FrameRange range;
   range.first = 3, range.end = 6;
   range.T_segment_frame.resize(3);
   return range;
@@ -71,11 +71,11 @@ TEST(Fault, TrajectoriesHaveAStampForEachPose) {
 }
 
 TEST(Fault, RangesHaveAPoseForEachFrame) {
-  EXPECT_THAT(fault_after(sound_range(), [](Range& r) { r.end = 3; }),
+  EXPECT_THAT(fault_after(sound_range(), [](FrameRange& r) { r.end = 3; }),
               HasSubstr("range of frames"));
-  EXPECT_THAT(fault_after(sound_range(), [](Range& r) { r.end = 4'000'000'000u; }),
+  EXPECT_THAT(fault_after(sound_range(), [](FrameRange& r) { r.end = 4'000'000'000u; }),
               HasSubstr("range of frames"));
-  EXPECT_THAT(fault_after(sound_range(), [](Range& r) { r.T_segment_frame.pop_back(); }),
+  EXPECT_THAT(fault_after(sound_range(), [](FrameRange& r) { r.T_segment_frame.pop_back(); }),
               HasSubstr("range of frames"));
 }
 
@@ -148,15 +148,16 @@ TEST(Fault, GridsHaveTheCellsThatTheySay) {
   EXPECT_THAT(fault_after(map, [](GridMap& m) { m.resolution = 0; }), HasSubstr("cell size"));
 }
 
-TEST(Fault, RelationsAndRegistrationsAreFinite) {
-  Relations relations;
-  relations.relative.resize(1), relations.absolute.resize(1), relations.points.resize(1);
-  EXPECT_THAT(fault_after(relations, [](Relations& r) { r.relative[0].information(0, 3) = nan; }),
-              HasSubstr("information"));
+TEST(Fault, ConstraintsAndRegistrationsAreFinite) {
+  Constraints constraints;
+  constraints.relative.resize(1), constraints.absolute.resize(1), constraints.points.resize(1);
   EXPECT_THAT(
-      fault_after(relations, [](Relations& r) { r.absolute[0].T_world_i.translation.z() = nan; }),
-      HasSubstr("pose"));
-  EXPECT_THAT(fault_after(relations, [](Relations& r) { r.points[0].p_world.x() = infinity; }),
+      fault_after(constraints, [](Constraints& r) { r.relative[0].information(0, 3) = nan; }),
+      HasSubstr("information"));
+  EXPECT_THAT(fault_after(constraints,
+                          [](Constraints& r) { r.absolute[0].T_world_i.translation.z() = nan; }),
+              HasSubstr("pose"));
+  EXPECT_THAT(fault_after(constraints, [](Constraints& r) { r.points[0].p_world.x() = infinity; }),
               HasSubstr("point"));
   EXPECT_THAT(fault_after(Registration(), [](Registration& r) { r.information(5, 5) = infinity; }),
               HasSubstr("information"));

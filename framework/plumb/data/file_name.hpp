@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// What is wrong with a name of a file or folder, as the end of a sentence ("is no name for ...");
-/// empty if nothing is. A good name stays in the folder that it is put into, is seen there, and
-/// leaves room for what a run adds to it.
+/// What is wrong with a name of a file or folder, as the end of a sentence ("is not a name for
+/// ..."); empty if nothing is. A good name stays in the folder that it is put into, is seen there,
+/// and leaves room for what a run adds to it.
 std::string fault_of_file_name(std::string_view name);
 
 }  // namespace plumb

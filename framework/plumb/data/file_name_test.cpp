@@ -14,7 +14,7 @@ TEST(FileName, IsGoodWhenItStaysInItsFolderAndIsSeenThere) {
 TEST(FileName, IsRefusedWhenItLeavesItsFolderOrHides) {
   for (const char* name : {"", ".", "..", "../escaped", "/tmp/absolute", "a/b", "a/", ".hidden",
                            "a\nb", "\x1b[2J", "\x7f"})
-    EXPECT_THAT(fault_of_file_name(name), testing::HasSubstr("is no name for a file or folder"))
+    EXPECT_THAT(fault_of_file_name(name), testing::HasSubstr("is not a name for a file or folder"))
         << name;
   EXPECT_NE(fault_of_file_name(std::string(201, 'x')), "");
   EXPECT_NE(fault_of_file_name(std::string_view("a\0b", 3)), "");

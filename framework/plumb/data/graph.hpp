@@ -1,5 +1,5 @@
 #pragma once
-/// What joins segments: edges, point matches, relations; and where segments are.
+/// What joins segments: edges, point matches, constraints; and where segments are.
 
 #include <cstdint>
 #include <map>
@@ -33,7 +33,7 @@ struct Edges {
 /// should be T_j q.
 struct Matches {
   std::vector<Eigen::Vector3f> p, q;
-  std::vector<std::uint32_t> index_p, index_q;  ///< key points (features) or cloud points (nearest)
+  std::vector<std::uint32_t> index_p, index_q;  ///< keypoints (features) or cloud points (nearest)
   std::vector<float> weight;
   std::vector<std::uint8_t> at_border;    ///< 1 where p or q lies at its cloud's border
   std::vector<Eigen::Vector3f> normal_p;  ///< unit normals in i's coordinates; empty where unknown
@@ -80,7 +80,7 @@ struct AbsolutePoint {
 };
 
 /// Constraints that do not come from point matches: g2o files, control points, GNSS.
-struct Relations {
+struct Constraints {
   bool planar = false;             ///< from SE(2): z, roll and pitch are not observed and stay 0
   std::vector<std::uint64_t> ids;  ///< the file's vertex numbers, by our index
   std::vector<RelativePose> relative;
@@ -113,7 +113,7 @@ template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, AbsolutePoint>
 void fields(Archive& a, T& r) { a(r.i, r.p_i, r.p_world, r.information); }
 template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Relations>
+requires std::is_same_v<std::remove_const_t<T>, Constraints>
 void fields(Archive& a, T& r) { a(r.planar, r.ids, r.relative, r.absolute, r.points); }
 
 }  // namespace plumb

@@ -6,10 +6,10 @@
 
 namespace plumb {
 
-Range range_of(const Trajectory& trajectory, std::size_t first, std::size_t end) {
+FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t end) {
   if (first >= end || end > trajectory.size())
     throw Error("frames " + std::to_string(first) + " to " + std::to_string(end) +
-                " (not included) are no range of a trajectory of " +
+                " (not included) are not a range of a trajectory of " +
                 std::to_string(trajectory.size()) + " poses");
   constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
   if (end - first > most)
@@ -17,7 +17,7 @@ Range range_of(const Trajectory& trajectory, std::size_t first, std::size_t end)
                 std::to_string(end - 1) + " would have " + std::to_string(end - first) +
                 " frames, but at most " + std::to_string(most) +
                 " are possible: cut into shorter segments");
-  Range range;
+  FrameRange range;
   range.first = static_cast<std::uint32_t>(first);
   range.end = static_cast<std::uint32_t>(end);
   range.T_world_segment = trajectory.T_world_frame[first + (end - first) / 2];
@@ -28,9 +28,9 @@ Range range_of(const Trajectory& trajectory, std::size_t first, std::size_t end)
   return range;
 }
 
-std::vector<Range> ranges_from(const Trajectory& trajectory,
-                               const std::vector<std::size_t>& starts) {
-  std::vector<Range> ranges;
+std::vector<FrameRange> ranges_from(const Trajectory& trajectory,
+                                    const std::vector<std::size_t>& starts) {
+  std::vector<FrameRange> ranges;
   ranges.reserve(starts.size());
   for (std::size_t k = 0; k < starts.size(); ++k)
     ranges.push_back(
@@ -38,10 +38,10 @@ std::vector<Range> ranges_from(const Trajectory& trajectory,
   return ranges;
 }
 
-Poses poses_of(const std::vector<Range>& ranges) {
+Poses poses_of(const std::vector<FrameRange>& ranges) {
   Poses poses;
   poses.T_world_segment.reserve(ranges.size());
-  for (const Range& range : ranges) poses.T_world_segment.push_back(range.T_world_segment);
+  for (const FrameRange& range : ranges) poses.T_world_segment.push_back(range.T_world_segment);
   return poses;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How one cloud was laid onto another: the result of a registration, one per edge.
+/// How one cloud was registered to another: the result of a registration, one per edge.
 
 #include <cmath>
 
@@ -22,9 +22,10 @@ struct Registration {
 template <>
 const Type& type_of<Registration>();
 
-/// A relation of an edge as pose graphs take it. Their information counts a rotation by its q.vec,
-/// half the angle, where `information` counts it by the angle [rad].
-inline RelativePose relation_of(const Edge& edge, const Pose& T_i_j, const Matrix6d& information) {
+/// A constraint of an edge as pose graphs take it. Their information counts a rotation by its
+/// q.vec, half the angle, where `information` counts it by the angle [rad].
+inline RelativePose constraint_of(const Edge& edge, const Pose& T_i_j,
+                                  const Matrix6d& information) {
   Vector6d scale;
   scale << 1, 1, 1, 2, 2, 2;
   return {edge.i, edge.j, T_i_j, scale.asDiagonal() * information * scale.asDiagonal()};

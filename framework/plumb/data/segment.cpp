@@ -19,7 +19,7 @@ const SearchTree& LazyTree::of(const Cloud& cloud) const {
   return *state_->tree;
 }
 
-std::vector<Eigen::Vector3f> Range::origins() const {
+std::vector<Eigen::Vector3f> FrameRange::origins() const {
   std::vector<Eigen::Vector3f> origins;
   for (const Pose& pose : T_segment_frame) origins.push_back(pose.translation.cast<float>());
   return origins;

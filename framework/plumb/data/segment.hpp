@@ -19,7 +19,7 @@ struct Frame {
 
 /// Consecutive frames that become one rigid segment. The segment's frame is that of its middle
 /// frame.
-struct Range {
+struct FrameRange {
   std::uint32_t first = 0, end = 0;   ///< frames first .. end-1
   Pose T_world_segment;               ///< as the odometry has it
   std::vector<Pose> T_segment_frame;  ///< of each of its frames
@@ -42,7 +42,7 @@ class LazyTree {
 
 /// A merged cloud in the segment's coordinates [m].
 struct Segment {
-  Range range;
+  FrameRange range;
   Cloud cloud;
   std::vector<std::uint16_t> frame;  ///< of each point: its frame's place in the range
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();
@@ -67,7 +67,7 @@ template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Frame>
 void fields(Archive& a, T& f) { a(f.index, f.cloud); }
 template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Range>
+requires std::is_same_v<std::remove_const_t<T>, FrameRange>
 void fields(Archive& a, T& r) { a(r.first, r.end, r.T_world_segment, r.T_segment_frame); }
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Segment>

@@ -66,14 +66,14 @@ const char* name_of(Grain grain) {
   }
 PLUMB_TYPE(Trajectory, 1, whole)
 PLUMB_TYPE(Frame, 1, frame)
-PLUMB_TYPE(Range, 1, segment)
+PLUMB_TYPE(FrameRange, 1, segment)
 PLUMB_TYPE(Segment, 1, segment)
 PLUMB_TYPE(Descriptor, 1, segment)
 PLUMB_TYPE(Features, 1, segment)
 PLUMB_TYPE(Edges, 1, whole)
 PLUMB_TYPE(Matches, 1, edge)
 PLUMB_TYPE(Registration, 1, edge)
-PLUMB_TYPE(Relations, 1, whole)
+PLUMB_TYPE(Constraints, 1, whole)
 PLUMB_TYPE(Poses, 1, whole)
 PLUMB_TYPE(GridMap, 1, whole)
 PLUMB_TYPE(Metrics, 1, whole)
@@ -82,10 +82,11 @@ PLUMB_TYPE(Document, 1, whole)
 
 const Type* find_type(std::string_view name) {
   static const std::array<const Type*, 14> all = {
-      &type_of<Trajectory>(),   &type_of<Frame>(),     &type_of<Range>(), &type_of<Segment>(),
-      &type_of<Descriptor>(),   &type_of<Features>(),  &type_of<Edges>(), &type_of<Matches>(),
-      &type_of<Registration>(), &type_of<Relations>(), &type_of<Poses>(), &type_of<GridMap>(),
-      &type_of<Metrics>(),      &type_of<Document>()};
+      &type_of<Trajectory>(),  &type_of<Frame>(),      &type_of<FrameRange>(),
+      &type_of<Segment>(),     &type_of<Descriptor>(), &type_of<Features>(),
+      &type_of<Edges>(),       &type_of<Matches>(),    &type_of<Registration>(),
+      &type_of<Constraints>(), &type_of<Poses>(),      &type_of<GridMap>(),
+      &type_of<Metrics>(),     &type_of<Document>()};
   for (const Type* type : all)
     if (name == type->name) return type;
   return nullptr;

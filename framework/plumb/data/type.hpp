@@ -29,7 +29,7 @@ struct Type {
   std::shared_ptr<const void> (*empty)();   ///< a value without content: of Matches no pairs
 };
 
-/// The type of T, for every T of section 3 of the design: type_of<Segment>().
+/// The type of T, for every type that a port may have: type_of<Segment>().
 template <class T>
 const Type& type_of();
 template <>
@@ -37,7 +37,7 @@ const Type& type_of<Trajectory>();
 template <>
 const Type& type_of<Frame>();
 template <>
-const Type& type_of<Range>();
+const Type& type_of<FrameRange>();
 template <>
 const Type& type_of<Segment>();
 template <>
@@ -49,7 +49,7 @@ const Type& type_of<Edges>();
 template <>
 const Type& type_of<Matches>();
 template <>
-const Type& type_of<Relations>();
+const Type& type_of<Constraints>();
 template <>
 const Type& type_of<Poses>();
 template <>

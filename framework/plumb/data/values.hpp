@@ -17,7 +17,7 @@ struct Descriptor {
   std::vector<float> values;
 };
 
-/// Key points of a segment [m, segment coordinates] with one vector each.
+/// Keypoints of a segment [m, segment coordinates] with one vector each.
 struct Features {
   std::uint32_t dimension = 0;  ///< length of each vector (FPFH: 33)
   std::vector<Eigen::Vector3f> points;
@@ -53,7 +53,7 @@ struct EdgeRecord {
   std::uint32_t found = 0, kept = 0;  ///< point pairs before and after pruning
   double residual = 0;                ///< rms distance of the kept pairs after solving [m]
   double weight = 1;                  ///< mean robust weight, 0 to 1
-  std::string fate;                   ///< "kept", "down-weighted", "rejected" or "no matches"
+  std::string status;                 ///< "accepted", "down-weighted", "rejected" or "no matches"
 };
 
 /// Named numbers, the first being the one that the value is known by, and records per edge.
@@ -90,7 +90,7 @@ void fields(Archive& a, T& n) { a(n.name, n.value, n.unit); }
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, EdgeRecord>
 void fields(Archive& a, T& e) {
-  a(e.i, e.j, e.kind, e.found, e.kept, e.residual, e.weight, e.fate);
+  a(e.i, e.j, e.kind, e.found, e.kept, e.residual, e.weight, e.status);
 }
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Metrics>

@@ -34,7 +34,7 @@ struct alignas(64) Cell {
 /// Numbers the cells along one axis. The first points lie in the middle of what can be numbered.
 class Axis {
  public:
-  Axis(double leaf, const char* name) : per_metre_(1 / leaf), leaf_(leaf), name_(name) {}
+  Axis(double edge, const char* name) : per_metre_(1 / edge), edge_(edge), name_(name) {}
 
   /// Room for more coordinates. Throws Error when there is none.
   void reach(const std::vector<float>& values) {
@@ -49,8 +49,8 @@ class Axis {
     if (lowest < low_ || highest >= low_ + most_cells)
       throw Error(std::string("the cloud reaches from ") + short_number(least) + " m to " +
                   short_number(greatest) + " m along " + name_ +
-                  ", which is more than 2^21 cells of " + short_number(leaf_) +
-                  " m: drop far points before, or raise leaf");
+                  ", which is more than 2^21 voxels of " + short_number(edge_) +
+                  " m: drop far points before, or take larger voxels");
     least_ = least, greatest_ = greatest;
   }
   void cells(const std::vector<float>& values, std::size_t first, std::size_t n,
@@ -61,7 +61,7 @@ class Axis {
   }
 
  private:
-  double per_metre_, leaf_;
+  double per_metre_, edge_;
   const char* name_;
   double low_ = 0;
   float least_ = std::numeric_limits<float>::infinity(),
@@ -94,7 +94,7 @@ struct Normals {
 }  // namespace
 
 struct VoxelMeans::State {
-  explicit State(double leaf) : x(leaf, "x"), y(leaf, "y"), z(leaf, "z") {}
+  explicit State(double edge) : x(edge, "x"), y(edge, "y"), z(edge, "z") {}
 
   Axis x, y, z;
   CellTable<Cell> cells;
@@ -151,7 +151,7 @@ struct VoxelMeans::State {
   }
 };
 
-VoxelMeans::VoxelMeans(double leaf) : state_(std::make_unique<State>(leaf)) {}
+VoxelMeans::VoxelMeans(double edge) : state_(std::make_unique<State>(edge)) {}
 VoxelMeans::~VoxelMeans() = default;
 
 void VoxelMeans::add(const Cloud& cloud, const std::vector<std::uint16_t>& frame,

@@ -14,8 +14,8 @@ namespace plumb {
 /// the same means, whether they came as one cloud or as many.
 class VoxelMeans {
  public:
-  /// Cells floor(p / leaf) of edge length `leaf` [m].
-  explicit VoxelMeans(double leaf);
+  /// Voxels floor(p / edge) of edge length `edge` [m].
+  explicit VoxelMeans(double edge);
   ~VoxelMeans();
 
   /// Adds the points of a cloud. Point k was seen by frame[k] (empty: none is given, and none comes

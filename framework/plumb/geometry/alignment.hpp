@@ -1,5 +1,5 @@
 #pragma once
-/// Rigid motion that lays one set of points onto another.
+/// Rigid motion that aligns one set of points with another.
 
 #include <span>
 

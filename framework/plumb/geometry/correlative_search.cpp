@@ -79,10 +79,10 @@ class Search {
     }
   }
 
-  /// What the window's trust takes from the sum of a single pose.
+  /// What the window's prior takes from the sum of a single pose.
   int lost(const Branch& b) const {
-    if (window_.trust.share == 0) return 0;
-    return static_cast<int>(window_.trust.lost(pose(b)) * 255 * static_cast<double>(count_));
+    if (window_.prior.weight == 0) return 0;
+    return static_cast<int>(window_.prior.lost(pose(b)) * 255 * static_cast<double>(count_));
   }
 
   PlanarPose pose(const Branch& b) const {
@@ -131,9 +131,9 @@ double score_of(const LikelihoodField& field, const std::vector<float>& x,
 
 PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
                          const std::vector<float>& y, const PlanarPose& peak, double yaw_step,
-                         const Trust& trust) {
+                         const Prior& prior) {
   const auto score = [&](const PlanarPose& pose) {
-    return score_of(field, x, y, pose) - trust.lost(pose);
+    return score_of(field, x, y, pose) - prior.lost(pose);
   };
   const double middle = score(peak);
   const auto top = [&](const PlanarPose& before, const PlanarPose& after) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The pose in a window that lays points best onto a likelihood field: every pose of a grid is
-/// judged, by branch and bound. Sources: [Olson2009], [Hess2016].
+/// The pose in a window that registers points best to a likelihood field: exhaustive search of a
+/// grid of poses by branch and bound. Sources: [Olson2009], [Hess2016].
 
 #include <optional>
 #include <vector>
@@ -10,19 +10,20 @@
 
 namespace plumb {
 
-/// What is believed before looking: a score is lowered by up to `share`, by half of it at
-/// `distance` [m] or at `yaw` [rad] from `pose`. Where the points do not say, as along a corridor,
-/// this does; where they do by more than `share`, they win however far off.
-struct Trust {
+/// A prior on the pose: a score is lowered by up to `weight`, by half of it at `translation_sigma`
+/// [m] or at `rotation_sigma` [rad] from `pose`. Where the points do not constrain the pose, as
+/// along a corridor, the prior decides; where they do by more than `weight`, it has no influence.
+struct Prior {
   PlanarPose pose;
-  double share = 0, distance = 0.05, yaw = 0.05;
+  double weight = 0, translation_sigma = 0.05, rotation_sigma = 0.05;
 
   /// What it takes from the score of `other`.
   double lost(const PlanarPose& other) const {
-    const double dx = (other.x - pose.x) / distance, dy = (other.y - pose.y) / distance;
-    const double turn = wrapped(other.yaw - pose.yaw) / yaw;
+    const double dx = (other.x - pose.x) / translation_sigma,
+                 dy = (other.y - pose.y) / translation_sigma;
+    const double turn = wrapped(other.yaw - pose.yaw) / rotation_sigma;
     const double square = dx * dx + dy * dy + turn * turn;
-    return share * square / (1 + square);
+    return weight * square / (1 + square);
   }
 };
 
@@ -30,7 +31,7 @@ struct Trust {
 struct SearchWindow {
   PlanarPose centre;
   double x = 0.5, y = 0.5, yaw = 0.3;
-  Trust trust = {};
+  Prior prior = {};
 };
 
 /// Poses that are not looked at: those nearer than `distance` [m] and `yaw` [rad] to `pose`.
@@ -40,8 +41,8 @@ struct Excluded {
 };
 
 struct Peak {
-  PlanarPose pose;   ///< lays the points onto the field
-  double score = 0;  ///< mean value of the points' cells, 0 to 1, less what `trust` takes
+  PlanarPose pose;   ///< of the points in the field
+  double score = 0;  ///< mean value of the points' cells, 0 to 1, less what `prior` takes
 };
 
 /// The best pose of the window's grid (one cell in x and y, `yaw_step` [rad] in yaw) whose score is
@@ -57,10 +58,10 @@ double score_of(const LikelihoodField& field, const std::vector<float>& x,
                 const std::vector<float>& y, const PlanarPose& pose);
 
 /// `peak` moved by less than half a cell, to the tops of the parabolas through the scores of its
-/// neighbours in x, y and yaw, less what `trust` takes.
+/// neighbours in x, y and yaw, less what `prior` takes.
 PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>& x,
                          const std::vector<float>& y, const PlanarPose& peak, double yaw_step,
-                         const Trust& trust = {});
+                         const Prior& prior = {});
 
 /// The step of yaw [rad] that moves nine of ten of the points by at most a cell.
 double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, double resolution);

@@ -7,7 +7,7 @@
 namespace plumb {
 namespace {
 
-/// A source point where the pose lays it, b, and its partner in the target, a, with the target's
+/// A transformed source point, b, and its correspondence in the target, a, with the target's
 /// normal there.
 struct Pair {
   Eigen::Vector2d a, b, normal;
@@ -26,9 +26,9 @@ class Icp {
   }
 
   IcpResult run() {
-    if (options_.iterations == 0) pair_up();
+    if (options_.max_iterations == 0) pair_up();
     double mae_before = -1;
-    while (result_.iterations < options_.iterations) {
+    while (result_.iterations < options_.max_iterations) {
       pair_up();
       ++result_.iterations;
       if (pairs_.size() < 3) break;
@@ -48,7 +48,7 @@ class Icp {
   void pair_up() {
     pairs_.clear();
     const double c = std::cos(result_.T.yaw), s = std::sin(result_.T.yaw);
-    const auto reach = static_cast<float>(options_.reach);
+    const auto reach = static_cast<float>(options_.max_correspondence_distance);
     const bool normals = target_.has_normals();
     double sum = 0;
     for (std::size_t k = 0; k < source_.size(); ++k) {
@@ -103,8 +103,8 @@ class Icp {
       h += weight * row * row.transpose();
       g += weight * left * row;
     }
-    if (options_.hold) {
-      const double place = std::pow(*options_.hold, -2), heading = 9 * place;
+    if (options_.start_sigma) {
+      const double place = std::pow(*options_.start_sigma, -2), heading = 9 * place;
       h.diagonal() += Eigen::Vector3d(place, place, heading);
       g += Eigen::Vector3d(place * (start_.x - result_.T.x), place * (start_.y - result_.T.y),
                            heading * wrapped(start_.yaw - result_.T.yaw));
@@ -129,8 +129,8 @@ class Icp {
   }
 
   /// What the pairs' lines fix, whatever the metric: along a bare corridor that is nothing, however
-  /// many points there are, and only the start's hold is left. Without normals a pair fixes both
-  /// directions. Brought to the source's coordinates, in which a relation's error is taken.
+  /// many points there are, and only the prior of the start is left. Without normals a pair fixes
+  /// both directions. Brought to the source's coordinates, in which a constraint's error is taken.
   Eigen::Matrix3d information() const {
     Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
     const bool normals = target_.has_normals();
@@ -148,7 +148,8 @@ class Icp {
     turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(result_.T.yaw).toRotationMatrix();
     Eigen::Matrix3d all =
         turn.transpose() * h * turn / (options_.noise * options_.noise * points_that_count_as_one);
-    if (options_.hold) all.diagonal() += Eigen::Vector3d(1, 1, 9) * std::pow(*options_.hold, -2);
+    if (options_.start_sigma)
+      all.diagonal() += Eigen::Vector3d(1, 1, 9) * std::pow(*options_.start_sigma, -2);
     return all;
   }
 
@@ -163,8 +164,8 @@ class Icp {
 
 }  // namespace
 
-IcpResult lay_onto(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
-                   const PlanarPose& start, const IcpOptions& options) {
+IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
+                const PlanarPose& start, const IcpOptions& options) {
   return Icp(target, tree, source, start, options).run();
 }
 

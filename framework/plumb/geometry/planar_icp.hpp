@@ -37,11 +37,11 @@ struct IcpOptions {
   Metric metric = Metric::point;
   double change = 1e-4;
   double ratio = 0.95;
-  double reach = 0.3;             ///< [m] farthest that a pair may be apart
-  std::uint32_t iterations = 50;  ///< at most
-  double noise = 0.03;            ///< [m] standard deviation of a pair's residual
-  std::optional<double> hold;  ///< [m] standard deviation of the start's place; its heading's is a
-                               ///< third of that in rad. Metric::line only
+  double max_correspondence_distance = 0.3;  ///< [m] between the points of a pair
+  std::uint32_t max_iterations = 50;         ///< at most
+  double noise = 0.03;                       ///< [m] standard deviation of a pair's residual
+  std::optional<double> start_sigma;         ///< [m] standard deviation of the start's place; its
+                                      ///< heading's is a third of that in rad. Metric::line only
 };
 
 struct IcpResult {
@@ -54,10 +54,10 @@ struct IcpResult {
       Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see planar_icp.cpp
 };
 
-/// Lays `source` onto `target` from `start` on. Pairs are each source point and the nearest target
-/// point (`tree` holds the target's points, with z = 0). Fewer than 3 pairs: the pose stays as it
-/// is and overlap says so. With 0 iterations the start is only judged.
-IcpResult lay_onto(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
-                   const PlanarPose& start, const IcpOptions& options);
+/// Registers `source` to `target`, with the initial guess `start`. Pairs are each source point and
+/// the nearest target point (`tree` holds the target's points, with z = 0). Fewer than 3 pairs: the
+/// pose stays as it is and overlap says so. With 0 iterations the start is only evaluated.
+IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
+                const PlanarPose& start, const IcpOptions& options);
 
 }  // namespace plumb

@@ -22,7 +22,7 @@ TEST(PlanarIcp, FindsTheMotionBetweenTwoScans) {
   const Points target = scan(a, 720, 0.005, 1), source = scan(b, 360, 0.005, 2);
   const SearchTree tree(target);
   const PlanarPose truth = a.inverse() * b;
-  const auto found = lay_onto(target, tree, source, {}, {});
+  const auto found = align(target, tree, source, {}, {});
   EXPECT_LT(off(found.T, truth), 0.02);
   EXPECT_NEAR(found.T.yaw, truth.yaw, 0.005);
   EXPECT_GT(found.overlap, 0.95);
@@ -39,9 +39,9 @@ TEST(PlanarIcp, StopsOncePairsComeNoNearerInFewerIterationsAndHardlyFartherOff) 
                  source = scan(a * motion, 360, 0.01, 100 + round);
     const SearchTree tree(target);
     IcpOptions options;
-    const auto icp = lay_onto(target, tree, source, {}, options);
+    const auto icp = align(target, tree, source, {}, options);
     options.stop = Stop::ratio;
-    const auto ia = lay_onto(target, tree, source, {}, options);
+    const auto ia = align(target, tree, source, {}, options);
     usual += icp.iterations, adaptive += ia.iterations;
     usual_off += off(icp.T, motion) / 30, adaptive_off += off(ia.T, motion) / 30;
   }
@@ -64,7 +64,7 @@ TEST(PlanarIcp, AlongLinesASourceMayLieBetweenTheTargetsPoints) {
   const SearchTree tree(target);
   IcpOptions options;
   options.metric = Metric::line;
-  const auto found = lay_onto(target, tree, source, {}, options);
+  const auto found = align(target, tree, source, {}, options);
   EXPECT_LT(off(found.T, b), 0.002);
   EXPECT_NEAR(found.T.yaw, b.yaw, 0.001);
 }
@@ -79,8 +79,8 @@ TEST(PlanarIcp, KnowsThatACorridorSaysNothingAboutTheWayAlongIt) {
   const SearchTree tree(corridor);
   IcpOptions options;
   options.metric = Metric::line;
-  options.hold = 0.02;
-  const auto found = lay_onto(corridor, tree, corridor, {0.3, 0.05, 0}, options);
+  options.start_sigma = 0.02;
+  const auto found = align(corridor, tree, corridor, {0.3, 0.05, 0}, options);
   EXPECT_NEAR(found.T.y, 0, 4e-3);  // the hold draws it back by 0.05 m * 2500 / (2500 + 44700)
   EXPECT_NEAR(found.T.x, 0.3, 1e-6);
   EXPECT_NEAR(found.information(0, 0), 2500, 1);  // what the hold says
@@ -91,7 +91,7 @@ TEST(PlanarIcp, LeavesThePoseWhereThereIsNothingToPair) {
   Points near, far;
   for (int k = 0; k < 10; ++k) near.add({0.1f * k, 0, 0}), far.add({100 + 0.1f * k, 0, 0});
   const SearchTree tree(near);
-  const auto found = lay_onto(near, tree, far, {1, 2, 0.5}, {});
+  const auto found = align(near, tree, far, {1, 2, 0.5}, {});
   EXPECT_EQ(found.T.x, 1);
   EXPECT_EQ(found.T.yaw, 0.5);
   EXPECT_EQ(found.overlap, 0);
@@ -102,8 +102,8 @@ TEST(PlanarIcp, OnlyJudgesTheStartWithoutIterations) {
   const Points target = scan({}, 720, 0.005, 1), source = scan(b, 360, 0.005, 2);
   const SearchTree tree(target);
   IcpOptions options;
-  options.iterations = 0;
-  const auto found = lay_onto(target, tree, source, b, options);
+  options.max_iterations = 0;
+  const auto found = align(target, tree, source, b, options);
   EXPECT_EQ(off(found.T, b), 0);
   EXPECT_EQ(found.T.yaw, b.yaw);
   EXPECT_EQ(found.iterations, 0u);

@@ -1,5 +1,5 @@
 #pragma once
-/// For tests of what lays planar points onto each other: a room, seen by a laser.
+/// For tests of registration in the plane: a room, seen by a laser.
 
 #include <Eigen/Core>
 #include <cmath>

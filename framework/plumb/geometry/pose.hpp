@@ -4,11 +4,15 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace plumb {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// One degree [rad], as in 15 * deg.
+inline constexpr double deg = std::numbers::pi / 180;
 
 /// An element of SE(3): a unit quaternion and a translation [m].
 struct Pose {

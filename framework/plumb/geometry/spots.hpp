@@ -8,16 +8,16 @@
 
 namespace plumb {
 
-/// A point within `leaf` [m] of the first point of a spot belongs to it, else it is the first of a
+/// A point within `edge` [m] of the first point of a spot belongs to it, else it is the first of a
 /// new spot; what comes out is the mean of each, in the order of the first ones. Unlike cells of a
 /// grid, spots have no sides that would cut a wall's noise in two: means of such parts lie beside
-/// the wall, always on the same side where it runs along the grid, and turn what is laid onto them.
-/// For groups of some thousand points; they must lie within 2^20 leaves of the origin.
+/// the wall, always on the same side where it runs along the grid, and rotate what is registered to
+/// them. For submaps of some thousand points; they must lie within 2^20 voxels of the origin.
 class Spots {
  public:
-  explicit Spots(double leaf)
-      : per_leaf_(static_cast<float>(1 / leaf)),
-        square_(static_cast<float>(leaf * leaf)),
+  explicit Spots(double edge)
+      : per_edge_(static_cast<float>(1 / edge)),
+        square_(static_cast<float>(edge * edge)),
         slots_(1 << 10) {}
 
   void add(float x, float y, float z) {
@@ -64,7 +64,7 @@ class Spots {
     double sum_x, sum_y, sum_z, n;
   };
 
-  int cell_of(float x) const { return static_cast<int>(std::floor(x * per_leaf_)); }
+  int cell_of(float x) const { return static_cast<int>(std::floor(x * per_edge_)); }
   static std::uint64_t key_of(int column, int row, int layer) {
     const auto part = [](int n) { return static_cast<std::uint64_t>(n + (1 << 20)) & 0x1fffff; };
     return part(column) | part(row) << 21 | part(layer) << 42;
@@ -90,7 +90,7 @@ class Spots {
       if (slot.newest != none) find(slot.key) = slot;
   }
 
-  float per_leaf_, square_;
+  float per_edge_, square_;
   bool flat_ = true;         ///< all z are 0 so far: other layers are empty
   std::vector<Slot> slots_;  ///< a power of two, at most half full
   std::vector<Spot> spots_;

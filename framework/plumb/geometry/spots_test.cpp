@@ -17,12 +17,12 @@ struct Points {
 };
 
 /// Which points begin a spot, by comparing each with all of them: those that no earlier one lies
-/// within `leaf` of.
-Points beginners(const Points& cloud, float leaf) {
+/// within `edge` of.
+Points beginners(const Points& cloud, float edge) {
   Points result;
   for (const auto& p : cloud.all)
     if (std::ranges::none_of(result.all,
-                             [&](const auto& q) { return (q - p).squaredNorm() <= leaf * leaf; }))
+                             [&](const auto& q) { return (q - p).squaredNorm() <= edge * edge; }))
       result.add(p);
   return result;
 }

@@ -27,7 +27,7 @@ TEST(Mistakes, InWires) {
   EXPECT_THAT(told_with("{frames: ranged, ranges: ranges}", "{frame: ranged, ranges: ranges}"),
               HasSubstr("it has no input 'frame'."));
   EXPECT_THAT(told_with("{frames: ranged, ranges: ranges}", "{frames: ranged}"),
-              HasSubstr("its input 'ranges' is not wired, it wants Range, one per segment."));
+              HasSubstr("its input 'ranges' is not wired, it wants FrameRange, one per segment."));
   EXPECT_THAT(told_with("features: fpfh}}\n      solved", "features: segments}}\n      solved"),
               HasSubstr("its input 'features' wants Features, one per segment, but 'segments' "
                         "gives Segment, one per segment."));

@@ -6,7 +6,8 @@
 ///     is.name("filter.voxel_grid").version(1).summary("Keeps one point per cubic
 ///     cell.").source("[Tang2024] 2.2"); is.input("segment", &In::segment, "the cloud to thin");
 ///     is.output("segment", &Out::segment, "its cells' means");
-///     is.param("leaf", &Params::leaf).unit("m").range(0.01, 100).doc("edge length of a cell");
+///     is.param("voxel_size", &Params::voxel_size).unit("m").range(0.01, 100).doc("edge length of a
+///     voxel");
 ///   }
 
 #include <limits>

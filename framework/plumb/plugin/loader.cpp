@@ -28,10 +28,10 @@ std::vector<const Step*> load_module(const std::filesystem::path& file) {
   }
   using Entry = const PlumbModule* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "plumb_module"));
-  if (!entry) throw Error(name + ": is no module of Plumb: it has no function plumb_module");
+  if (!entry) throw Error(name + ": is not a module of Plumb: it has no function plumb_module");
   const PlumbModule* module = entry();
   if (!module || module->magic != module_magic)
-    throw Error(name + ": is no module of Plumb: its table starts with another number");
+    throw Error(name + ": is not a module of Plumb: its table starts with another number");
   if (module->table_version != module_table_version || std::string(module->abi_tag) != abi_tag())
     throw Error(name + ": was built for another Plumb: it has '" + module->abi_tag + "' (table " +
                 std::to_string(module->table_version) + "), this one has '" + abi_tag() +

@@ -163,7 +163,7 @@ TEST(Evaluation, RefusesWrongInputsWithASentence) {
   EXPECT_THAT(
       said(),
       HasSubstr(
-          "a.tum: is no TUM trajectory, it looks like a point cloud (PLY): give a text file"));
+          "a.tum: is not a TUM trajectory, it looks like a point cloud (PLY): give a text file"));
   folder.write("a.tum", "100 0 0 0 0 0 0 1\n");
   EXPECT_THAT(said(), AllOf(HasSubstr("a.tum"), HasSubstr("none of its stamps")));
   folder.write("frames/0.pcd", pcd_bytes({}));

@@ -13,7 +13,7 @@ struct Tally {
   std::size_t weak = 0, all = 0;
   void add(const EdgeRecord& edge) {
     ++all;
-    weak += edge.fate == "no matches" || edge.fate == "rejected";
+    weak += edge.status == "no matches" || edge.status == "rejected";
   }
 };
 

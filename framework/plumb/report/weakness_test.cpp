@@ -16,7 +16,7 @@ MadeMetrics stage(const std::string& path, std::uint32_t weak) {
   Metrics metrics;
   for (std::uint32_t k = 0; k + 1 < 10; ++k) {
     metrics.edges.push_back(
-        {k, k + 1, EdgeKind::sequential, 100, 90, 0.1, 1, k < weak ? "no matches" : "kept"});
+        {k, k + 1, EdgeKind::sequential, 100, 90, 0.1, 1, k < weak ? "no matches" : "accepted"});
     if (k < weak) metrics.notes.push_back("segments " + std::to_string(k) + " are not joined");
   }
   metrics.edges.push_back({0, 9, EdgeKind::loop, 10, 10, 2, 0, "rejected"});
@@ -54,7 +54,7 @@ TEST(Weakness, OfLoopsAloneIsNoVerdict) {
   Metrics metrics;
   for (std::uint32_t k = 0; k < 20; ++k)
     metrics.edges.push_back({0, k + 5, EdgeKind::loop, 9, 9, 1, 0, "rejected"});
-  metrics.edges.push_back({0, 1, EdgeKind::sequential, 9, 9, 0.1, 1, "kept"});
+  metrics.edges.push_back({0, 1, EdgeKind::sequential, 9, 9, 0.1, 1, "accepted"});
   result.metrics = {{"drift", std::make_shared<const Metrics>(metrics)}};
   EXPECT_THAT(weaknesses(result, true), SizeIs(0));
 }

@@ -51,11 +51,11 @@ bool is_own(const struct stat& at) {
 int open_regular(const fs::path& file, Whose whose, struct stat& at, std::string& refused) {
   const int from = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (from < 0) {
-    if (errno == ELOOP || errno == ENXIO) refused = "is no regular file";  // a link, a socket
+    if (errno == ELOOP || errno == ENXIO) refused = "is not a regular file";  // a link, a socket
     return from;
   }
   if (fstat(from, &at) != 0 || !S_ISREG(at.st_mode))
-    refused = "is no regular file";
+    refused = "is not a regular file";
   else if (whose == Whose::own && !is_own(at))
     refused = "belongs to another user, or may be written by others";
   if (refused.empty()) return from;

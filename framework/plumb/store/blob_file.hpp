@@ -20,7 +20,7 @@ std::filesystem::path blob_file(const std::filesystem::path& store, const Hash12
 void for_each_blob(const std::filesystem::path& store,
                    const std::function<void(const Hash128&, const std::filesystem::path&)>& visit);
 
-/// Why a file is not taken though it is there: "is no regular file". Empty when it may be.
+/// Why a file is not taken though it is there: "is not a regular file". Empty when it may be.
 std::string why_refused(const std::filesystem::path& file, Whose whose);
 
 /// The size of a regular file; none when there is none at that path, or something else: a link, a

@@ -75,7 +75,7 @@ void Store::make_folder(StoreRole role) const {
   // Another run may be making it at this moment: its mark is there before anything else is.
   if (fs::exists(folder_, error) &&
       (!fs::is_directory(folder_) || holds_more_than_marks(folder_)) && !fs::exists(marked, error))
-    refuse("holds something else and is no cache; give a folder that is new or empty");
+    refuse("holds something else and is not a cache; give a folder that is new or empty");
   fs::create_directories(folder_.parent_path(), error);
   if (error) refuse_unwritable(error.value());
   if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) refuse_unwritable(errno);

@@ -51,7 +51,7 @@ using FaultOf = std::function<std::string(const StoredResult&)>;
 /// unless that is asked for.
 class Store {
  public:
-  /// Opens or makes the folder. Throws Error: it is no store and not empty, a store of another
+  /// Opens or makes the folder. Throws Error: it is not a store and not empty, a store of another
   /// format, another's, or cannot be written.
   explicit Store(const std::filesystem::path& folder, StoreRole role = StoreRole::driver,
                  Whose whose = Whose::own);

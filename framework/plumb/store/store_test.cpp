@@ -149,8 +149,8 @@ TEST(Store, RefusesFoldersOfOthersAndOtherFormats) {
   const io::TestFolder folder;
   const auto said = [&](const fs::path& path) { return io::refusal([&] { Store store(path); }); };
   folder.write("thesis.tex", "mine");
-  EXPECT_THAT(said(folder.path()), HasSubstr("is no cache"));
-  EXPECT_THAT(said(folder.path() / "thesis.tex"), HasSubstr("is no cache"));
+  EXPECT_THAT(said(folder.path()), HasSubstr("is not a cache"));
+  EXPECT_THAT(said(folder.path() / "thesis.tex"), HasSubstr("is not a cache"));
   { Store store(folder.path() / "later"); }
   std::ofstream(folder.path() / "later/plumb-store") << "plumb store 9\n";
   EXPECT_THAT(said(folder.path() / "later"),

@@ -120,13 +120,13 @@ TEST_F(Stranger, MayWriteNoResultThatIsTaken) {
 TEST_F(Stranger, PutAPipeInThePlaceOfAResult) {
   fs::remove(blob());
   mkfifo(blob().c_str(), 0600);
-  expect_made_again("is no regular file");
+  expect_made_again("is not a regular file");
 }
 
 TEST_F(Stranger, PutALinkInThePlaceOfAResult) {
   fs::rename(blob(), folder.path() / "elsewhere");
   fs::create_symlink(folder.path() / "elsewhere", blob());
-  expect_made_again("is no regular file");
+  expect_made_again("is not a regular file");
   EXPECT_TRUE(fs::exists(folder.path() / "elsewhere"));
 }
 
@@ -138,7 +138,7 @@ TEST_F(Stranger, PutASocketInThePlaceOfAResult) {
   std::strncpy(address.sun_path, blob().c_str(), sizeof address.sun_path - 1);
   ASSERT_EQ(::bind(number, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   ::close(number);
-  expect_made_again("is no regular file");
+  expect_made_again("is not a regular file");
 }
 
 TEST_F(Stranger, PutALinkInThePlaceOfAFolder) {
@@ -158,8 +158,8 @@ TEST_F(Stranger, PutALinkInThePlaceOfAFolder) {
 TEST_F(Stranger, PutAPipeInThePlaceOfTheMark) {
   fs::remove(path / "plumb-store");
   mkfifo((path / "plumb-store").c_str(), 0600);
-  EXPECT_THAT(refused(), HasSubstr("its file 'plumb-store' is no regular file"));
-  EXPECT_THAT(refused(Whose::anyones), HasSubstr("is no regular file"));
+  EXPECT_THAT(refused(), HasSubstr("its file 'plumb-store' is not a regular file"));
+  EXPECT_THAT(refused(Whose::anyones), HasSubstr("is not a regular file"));
 }
 
 TEST_F(Stranger, PutAPipeOrALinkInThePlaceOfTheIndex) {
@@ -189,7 +189,7 @@ TEST_F(Stranger, PutAPipeOrALinkInThePlaceOfTheLock) {
       fs::create_symlink(folder.path() / "theirs", path / "index.lock");
     Store store(path);
     EXPECT_THAT(store.index_fault(),
-                AllOf(HasSubstr("index.lock' is no regular file"), HasSubstr("remove it")));
+                AllOf(HasSubstr("index.lock' is not a regular file"), HasSubstr("remove it")));
     EXPECT_EQ(x_of(*store.find(key)), 5);
     EXPECT_FALSE(fs::exists(folder.path() / "theirs"));
   }

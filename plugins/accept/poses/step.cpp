@@ -34,29 +34,29 @@ struct AcceptPoses : WholeStep {
   static void describe(Declaration<AcceptPoses>& is) {
     is.name("accept.poses").version(1).source("ours");
     is.summary(
-        "Takes a stage's poses only if points of the clouds, chosen anew, agree as well under them "
-        "as before.");
-    is.input("before", &In::before, "where the segments were before the stage");
-    is.input("after", &In::after, "where the stage has put them");
-    is.input("edges", &In::edges, "which segments should agree");
-    is.input("segments", &In::segments, "their clouds, best with normals");
+        "Keeps a stage's new poses only if the clouds, judged on points selected anew, agree at "
+        "least as well as before.");
+    is.input("before", &In::before, "poses of the segments before the stage");
+    is.input("after", &In::after, "poses of the segments after the stage");
+    is.input("edges", &In::edges, "pairs of segments that should agree");
+    is.input("segments", &In::segments, "their clouds, preferably with normals");
     is.scale(&In::scale);
     is.output("poses", &Out::poses,
-              "'after', or 'before' where the stage made it worse, which is noted");
-    is.output(
-        "metrics", &Out::metrics,
-        "1 or 0: accepted; mean distances before and after, along the path and between visits");
+              "'after', or 'before' where the stage made the agreement worse, which is noted");
+    is.output("metrics", &Out::metrics,
+              "1 if accepted, else 0; mean distances before and after, along the path and between "
+              "visits");
     is.param("max_distance", &Params::max_distance)
         .unit("m")
         .range(1e-3, 1000)
-        .doc("points without a nearer one in the other segment count as if they were so far off");
+        .doc("distances to the nearest point of the other segment are truncated at this value");
     is.param("max_points", &Params::max_points)
         .range(10, 1e9)
-        .doc("points of a segment that are asked for each edge, evenly chosen");
+        .doc("points of a segment that are tested for each edge, evenly selected");
     is.param("tolerance", &Params::tolerance)
         .unit("%")
         .range(0, 10)
-        .doc("what may be worse by so little counts as equal");
+        .doc("relative increase of the mean distance that still counts as equal");
   }
 
   /// Sums over the edges of one class.

@@ -34,11 +34,11 @@ Chained chained(const Poses& initial, const Edges& edges,
   Chained result;
   std::vector<std::uint8_t> touched(count, 0);
   Matrix6d weak = Matrix6d::Zero();
-  weak.diagonal().head<3>().setConstant(std::pow(options.weak_translation, -2));
-  weak.diagonal().tail<3>().setConstant(std::pow(options.weak_rotation, -2));
+  weak.diagonal().head<3>().setConstant(std::pow(options.weak_translation_sigma, -2));
+  weak.diagonal().tail<3>().setConstant(std::pow(options.weak_rotation_sigma, -2));
 
   std::vector<Pose> T_i_j(edges.size());
-  result.relations.planar = true;
+  result.constraints.planar = true;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const Edge& e = edges.list[k];
     const Registration& r = registrations[k];
@@ -46,8 +46,8 @@ Chained chained(const Poses& initial, const Edges& edges,
     T_i_j[k] = r.accepted ? r.T_i_j : initial.relative(e.i, e.j);
     result.replaced += !r.accepted;
     const bool known = r.accepted && !r.information.isZero(0);
-    result.relations.relative.push_back(relation_of(e, T_i_j[k], known ? r.information : weak));
-    result.relations.planar = result.relations.planar && in_plane(T_i_j[k]);
+    result.constraints.relative.push_back(constraint_of(e, T_i_j[k], known ? r.information : weak));
+    result.constraints.planar = result.constraints.planar && in_plane(T_i_j[k]);
   }
 
   const auto placing = placing_edges(count, edges, registrations);

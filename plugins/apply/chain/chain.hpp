@@ -9,13 +9,13 @@
 namespace plumb {
 
 struct ChainOptions {
-  double weak_translation = 0.5;  ///< [m] standard deviation of what was not registered
-  double weak_rotation = 0.5;     ///< [rad] of its rotation
+  double weak_translation_sigma = 0.5;    ///< [m] standard deviation of what was not registered
+  double weak_rotation_sigma = 30 * deg;  ///< [rad] of its rotation
 };
 
 struct Chained {
   Poses poses;
-  Relations relations;
+  Constraints constraints;
   std::size_t replaced = 0;      ///< registrations that were not accepted
   std::size_t interpolated = 0;  ///< segments that no edge reaches, between two that one does
   std::size_t starts = 0;        ///< segments after the first where a chain starts anew
@@ -29,7 +29,7 @@ struct Chained {
 /// (interpolate()), and outside of all as the initial poses have it relative to the nearest placed
 /// one. Without any edge the poses are the initial ones.
 ///
-/// `relations` has one for each edge, its information by metres and q.vec (half the angle), as
+/// `constraints` has one for each edge, its information by metres and q.vec (half the angle), as
 /// solve.pose_graph takes it: that of the registration, or where it was not accepted or has none
 /// that of the weak standard deviations. They are planar when no motion leaves the plane. Throws
 /// Error when there are not as many poses as segments in `edges`.

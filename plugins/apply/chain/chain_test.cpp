@@ -42,10 +42,10 @@ TEST(ApplyChain, BringsExactRegistrationsToTheTruth) {
   for (int k = 0; k < 6; ++k)
     EXPECT_LT(distance(result.poses.T_world_segment[k], drive.truth.T_world_segment[k]), 1e-12)
         << k;
-  ASSERT_EQ(result.relations.relative.size(), 5u);
-  EXPECT_TRUE(result.relations.planar);
-  EXPECT_EQ(result.relations.relative[2].information(0, 0), 100);
-  EXPECT_EQ(result.relations.relative[2].information(5, 5), 400);  // of q.z, half the angle
+  ASSERT_EQ(result.constraints.relative.size(), 5u);
+  EXPECT_TRUE(result.constraints.planar);
+  EXPECT_EQ(result.constraints.relative[2].information(0, 0), 100);
+  EXPECT_EQ(result.constraints.relative[2].information(5, 5), 400);  // of q.z, half the angle
 }
 
 TEST(ApplyChain, StartsAtTheFirstInitialPose) {
@@ -63,7 +63,7 @@ TEST(ApplyChain, PutsTheInitialMotionWhereARegistrationIsNotAccepted) {
   EXPECT_EQ(result.replaced, 1u);
   EXPECT_LT(distance(result.poses.relative(2, 3), drive.odometry.relative(2, 3)), 1e-12);
   EXPECT_LT(distance(result.poses.relative(3, 5), drive.truth.relative(3, 5)), 1e-12);
-  const Matrix6d& information = result.relations.relative[2].information;
+  const Matrix6d& information = result.constraints.relative[2].information;
   EXPECT_DOUBLE_EQ(information(0, 0), 4);   // 0.5 m
   EXPECT_DOUBLE_EQ(information(5, 5), 16);  // 0.5 rad, by half the angle
 }
@@ -107,7 +107,7 @@ TEST(ApplyChain, BelievesTheNearestAcceptedOfSeveralEdges) {
 TEST(ApplyChain, IsNotPlanarWhereAMotionLeavesThePlane) {
   Drive drive;
   drive.registrations[1].T_i_j.rotation = exp_rotation({0.01, 0, 0});
-  EXPECT_FALSE(drive.chain().relations.planar);
+  EXPECT_FALSE(drive.chain().constraints.planar);
 }
 
 TEST(ApplyChain, KeepsInitialPosesWithoutAnyEdge) {

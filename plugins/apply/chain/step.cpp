@@ -14,7 +14,7 @@ struct ApplyChain : WholeStep {
   };
   struct Out {
     Poses poses;
-    Relations relations;
+    Constraints constraints;
     Metrics metrics;
   };
   using Params = ChainOptions;
@@ -22,23 +22,24 @@ struct ApplyChain : WholeStep {
   static void describe(Declaration<ApplyChain>& is) {
     is.name("apply.chain").version(1).source("[Zhang2023] 2");
     is.summary("Composes the registrations of consecutive segments into a trajectory.");
-    is.input("poses", &In::poses, "where the segments are before, as the odometry has it");
+    is.input("poses", &In::poses, "poses of the segments from odometry");
     is.input("registrations", &In::registrations,
-             "how each segment of a chain lies on one before it");
-    is.output(
-        "poses", &Out::poses,
-        "where the segments are now; those that no edge reaches lie between their neighbours");
-    is.output("relations", &Out::relations, "the registrations, for solve.pose_graph");
+             "registration of each segment of a chain to an earlier one");
+    is.output("poses", &Out::poses,
+              "corrected poses of the segments; those without an edge are interpolated");
+    is.output("constraints", &Out::constraints, "the registrations, for solve.pose_graph");
     is.output("metrics", &Out::metrics,
-              "how many registrations, their iterations, distances and overlap on average");
-    is.param("weak_translation", &Params::weak_translation)
+              "number of registrations; means of their iterations, distances and overlap");
+    is.param("weak_translation_sigma", &Params::weak_translation_sigma)
         .unit("m")
         .range(1e-4, 1000)
-        .doc("standard deviation of a relation whose registration was not accepted");
-    is.param("weak_rotation", &Params::weak_rotation)
+        .doc(
+            "standard deviation of the translation of a constraint whose registration was not "
+            "accepted");
+    is.param("weak_rotation_sigma", &Params::weak_rotation_sigma)
         .unit("rad")
-        .range(1e-5, 10)
-        .doc("the same of its rotation");
+        .range(0.001 * deg, 360 * deg)
+        .doc("standard deviation of its rotation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -64,7 +65,7 @@ struct ApplyChain : WholeStep {
     if (chain.starts)
       context.count("places where the chain starts anew, after the initial motion", chain.starts);
     out.poses = std::move(chain.poses);
-    out.relations = std::move(chain.relations);
+    out.constraints = std::move(chain.constraints);
     return out;
   }
 

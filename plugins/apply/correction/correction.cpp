@@ -5,7 +5,8 @@
 namespace plumb {
 namespace {
 
-void check(const Trajectory& trajectory, const std::vector<Range>& ranges, const Poses& poses) {
+void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
+           const Poses& poses) {
   if (poses.size() != ranges.size())
     throw Error("there are " + std::to_string(poses.size()) + " poses but " +
                 std::to_string(ranges.size()) +
@@ -24,11 +25,11 @@ void check(const Trajectory& trajectory, const std::vector<Range>& ranges, const
 }
 
 /// Frame in the middle of a range, whose coordinates the segment has.
-std::size_t middle(const Range& range) { return range.first + (range.end - range.first) / 2; }
+std::size_t middle(const FrameRange& range) { return range.first + (range.end - range.first) / 2; }
 
 }  // namespace
 
-Trajectory corrected(const Trajectory& trajectory, const std::vector<Range>& ranges,
+Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
                      const Poses& poses, bool blend) {
   check(trajectory, ranges, poses);
   const auto way = travelled(trajectory);

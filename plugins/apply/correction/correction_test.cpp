@@ -20,7 +20,7 @@ Trajectory drive(std::size_t frames) {
 
 struct Drive {
   Trajectory trajectory = drive(40);
-  std::vector<Range> ranges = ranges_from(trajectory, {0, 10, 20, 30});
+  std::vector<FrameRange> ranges = ranges_from(trajectory, {0, 10, 20, 30});
   Poses poses = poses_of(ranges);
 };
 

@@ -7,7 +7,7 @@ namespace {
 struct ApplyCorrection : WholeStep {
   struct In {
     One<Trajectory> trajectory;
-    Each<Range> ranges;
+    Each<FrameRange> ranges;
     One<Poses> poses;
   };
   struct Out {
@@ -20,19 +20,21 @@ struct ApplyCorrection : WholeStep {
   static void describe(Declaration<ApplyCorrection>& is) {
     is.name("apply.correction")
         .version(1)
-        .summary("Gives every frame its new pose, from the new poses of the segments.")
+        .summary("Moves every frame with its segment to the new poses of the segments.")
         .source("ours; [Tang2024] stops at segments");
     is.input("trajectory", &In::trajectory,
              "the poses of all frames as they were cut into segments");
-    is.input("ranges", &In::ranges, "the segments' frames, and where the segments were");
-    is.input("poses", &In::poses, "where the segments are now");
+    is.input("ranges", &In::ranges, "the frames of each segment, and the segments' original poses");
+    is.input("poses", &In::poses, "the new poses of the segments");
     is.output("trajectory", &Out::trajectory, "the corrected poses of all frames");
     is.param("blend", &Params::blend)
-        .doc("blend the corrections of neighbouring segments, so that the trajectory stays smooth");
+        .doc(
+            "interpolate between the corrections of neighbouring segments, so that the trajectory "
+            "stays smooth");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     for (std::size_t s = 0; s < in.ranges.size(); ++s) ranges.push_back(*in.ranges.open(s));
     return {corrected(*in.trajectory, ranges, *in.poses, params.blend)};
   }

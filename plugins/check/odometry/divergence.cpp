@@ -63,7 +63,7 @@ class Checker {
     std::ranges::sort(times);
     if (!times.empty()) usual_time_ = times[times.size() / 2];
     for (std::uint32_t a = 0, b = 1; b < odometry.size(); ++b)
-      if (path[b] - path[a] >= options.length || b - a >= options.max_frames ||
+      if (path[b] - path[a] >= options.min_path_length || b - a >= options.max_frames ||
           b + 1 == odometry.size()) {
         pairs_.push_back(
             {a, b, odometry.T_world_frame[a].inverse() * odometry.T_world_frame[b], {}, {}});

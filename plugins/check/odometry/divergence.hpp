@@ -14,8 +14,8 @@ namespace plumb {
 
 struct DivergenceOptions {
   ScanOptions scans;
-  double length = 3;  ///< [m] path by the odometry between two scans that are compared, at least (a
-                      ///< frame counts for no less than most do) ...
+  double min_path_length = 3;  ///< [m] path by the odometry between two scans that are compared, at
+                               ///< least (a frame counts for no less than most do) ...
   std::uint32_t max_frames = 5;   ///< ... or so many frames
   double max_misfit_ratio = 0.5;  ///< another motion must fit so much better
   double min_translation = 0.7;   ///< [m] by which it must differ, or ...
@@ -38,10 +38,11 @@ struct CheckedOdometry {
   std::uint32_t compared = 0;
 };
 
-/// Compares scans `length` or `max_frames` apart. For each pair the odometry's motion is held
-/// against others: the motion before it, twice and half of it, none. Where one of them fits better
-/// by far, both are aligned (ICP); where it still does, it takes the odometry's place, and the next
-/// pair is held against it too. `open(k)` gives frame k; it is called from several threads. Ours.
+/// Compares scans `min_path_length` or `max_frames` apart. For each pair the odometry's motion is
+/// held against others: the motion before it, twice and half of it, none. Where one of them fits
+/// better by far, both are aligned (ICP); where it still does, it takes the odometry's place, and
+/// the next pair is held against it too. `open(k)` gives frame k; it is called from several
+/// threads. Ours.
 CheckedOdometry check_odometry(const Trajectory& odometry,
                                const std::function<std::shared_ptr<const Frame>(std::size_t)>& open,
                                const DivergenceOptions& options, Context& context);

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <numbers>
 
 #include "divergence.hpp"
 #include "plumb/plugin/module.hpp"
@@ -27,47 +26,48 @@ struct CheckOdometry : WholeStep {
     double voxel_size = 0.4;
     double max_distance = 1;
     std::uint32_t max_points = 500;
-    double length = 3;
+    double min_path_length = 3;
     std::uint32_t max_frames = 5;
     double max_misfit_ratio = 0.5;
     double min_translation = 0.7;
     double single_factor = 4;
-    double min_rotation = 10 * std::numbers::pi / 180;
+    double min_rotation = 10 * deg;
   };
 
   static void describe(Declaration<CheckOdometry>& is) {
     is.name("check.odometry").version(1).source("ours");
     is.summary(
-        "Finds where the odometry contradicts the scans (jumps, stands still, wrong scale or turn) "
-        "and puts the scans' own motions there.");
+        "Finds where the odometry contradicts the scans (jumps, standstills, wrong scale or "
+        "rotation) and replaces it by scan-to-scan registration there.");
     is.input("frames", &In::frames, "the scans");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
     is.scale(&In::scale);
-    is.output("trajectory", &Out::trajectory,
-              "the odometry; where it is contradicted, with the motions that scans registered to "
-              "each other give");
+    is.output(
+        "trajectory", &Out::trajectory,
+        "the odometry; where it is contradicted, with the motions from scan-to-scan registration");
     is.output("metrics", &Out::metrics,
-              "pairs compared and contradicted; a note for each stretch, with frames and times");
+              "pairs compared and contradicted; a note for each contradicted stretch, with frames "
+              "and times");
     is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.01, 100)
-        .doc("edge length of the cells to which scans are thinned");
+        .doc("edge length of the voxels to which scans are downsampled");
     is.param("max_distance", &Params::max_distance)
         .unit("m")
         .range(0.01, 1000)
-        .doc("points without a nearer one in the other scan count as if they were so far off");
+        .doc("distances to the nearest point of the other scan are truncated at this value");
     is.param("max_points", &Params::max_points)
         .range(50, 1e6)
-        .doc("points of a scan that are asked, evenly chosen");
-    is.param("length", &Params::length)
+        .doc("points of a scan that are tested, evenly selected");
+    is.param("min_path_length", &Params::min_path_length)
         .unit("m")
         .range(0, 1e6)
         .doc(
-            "path between two scans that are compared, at least; a frame counts for no less than "
-            "three quarters of them move");
+            "path between two scans that are compared; a frame counts for at least the motion that "
+            "three quarters of the frames exceed");
     is.param("max_frames", &Params::max_frames)
         .range(1, 1e6)
-        .doc("frames between them at most, however little they moved");
+        .doc("frames between two scans that are compared");
     is.param("max_misfit_ratio", &Params::max_misfit_ratio)
         .unit("%")
         .range(0, 1)
@@ -77,16 +77,16 @@ struct CheckOdometry : WholeStep {
     is.param("min_translation", &Params::min_translation)
         .unit("m")
         .range(0, 1000)
-        .doc("by which such a motion differs at least, or ...");
+        .doc("the other motion must differ from the odometry by this translation, or ...");
     is.param("min_rotation", &Params::min_rotation)
         .unit("rad")
-        .range(0, std::numbers::pi)
-        .doc("... by this angle");
+        .range(0, 180 * deg)
+        .doc("... by this rotation");
     is.param("single_factor", &Params::single_factor)
         .range(1, 1000)
         .doc(
-            "where only one pair in a row is contradicted, it must differ by so many times that: "
-            "else the odometry is believed");
+            "where a single pair in a row is contradicted, it must differ by this multiple of the "
+            "two bounds");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -95,7 +95,7 @@ struct CheckOdometry : WholeStep {
                   std::to_string(in.trajectory->size()) +
                   " poses in the trajectory; wire the trajectory of these frames");
     const DivergenceOptions options{{params.voxel_size, params.max_distance, params.max_points},
-                                    params.length,
+                                    params.min_path_length,
                                     params.max_frames,
                                     params.max_misfit_ratio,
                                     params.min_translation,

@@ -37,7 +37,7 @@ Vector6d difference(const Pose& a, const Pose& b) {
 }  // namespace
 
 OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
-                             const MotionNoise& noise, double max_factor, double outlier) {
+                             const MotionNoise& noise, double max_factor, double max_deviation) {
   OdometryNoise result;
   const std::size_t n = odometry.size() > 0 ? odometry.size() - 1 : 0;
   std::vector<Vector6d> differences;
@@ -59,7 +59,7 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
     Vector6d& sigma = result.motions[k].sigma;
     sigma = sigma.cwiseProduct(result.factor);
     const Vector6d ratio = differences[k].cwiseAbs().cwiseQuotient(sigma);
-    if (ratio.maxCoeff() <= outlier) continue;
+    if (ratio.maxCoeff() <= max_deviation) continue;
     result.outliers.push_back(k);
     sigma = sigma.cwiseMax(differences[k].cwiseAbs());
     sigma.head<3>().setConstant(sigma.head<3>().maxCoeff());
@@ -68,14 +68,14 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
   return result;
 }
 
-Relations relations_from(const std::vector<Motion6>& motions) {
-  Relations relations;
+Constraints constraints_from(const std::vector<Motion6>& motions) {
+  Constraints constraints;
   for (std::uint32_t k = 0; k < motions.size(); ++k) {
     const Matrix6d information = motions[k].sigma.array().square().inverse().matrix().asDiagonal();
-    relations.relative.push_back(
-        relation_of({k, k + 1, EdgeKind::sequential, 1, 0}, motions[k].T_k_next, information));
+    constraints.relative.push_back(
+        constraint_of({k, k + 1, EdgeKind::sequential, 1, 0}, motions[k].T_k_next, information));
   }
-  return relations;
+  return constraints;
 }
 
 }  // namespace plumb

@@ -12,11 +12,11 @@ namespace plumb {
 /// Errors of a step are taken as proportional to the step, not to its root: the errors of lidar
 /// odometries are mostly slow (a tilted sensor, a wrong scale).
 struct MotionNoise {
-  double translation_per_metre = 0.03;  ///< [m/m]
-  double rotation_per_metre = 0.0017;   ///< [rad/m]
-  double rotation_per_turn = 0.02;      ///< [rad/rad]
-  double min_translation_sigma = 0.02;  ///< [m]
-  double min_rotation_sigma = 0.001;    ///< [rad]
+  double translation_per_metre = 0.03;     ///< [m/m]
+  double rotation_per_metre = 0.1 * deg;   ///< [rad/m]
+  double rotation_per_turn = 0.02;         ///< [rad/rad]
+  double min_translation_sigma = 0.02;     ///< [m]
+  double min_rotation_sigma = 0.05 * deg;  ///< [rad]
 };
 
 /// The motion from segment k to k + 1 with the standard deviations of x, y, z [m] and of the
@@ -37,12 +37,12 @@ struct OdometryNoise {
 /// Deviations as `noise` expects them. With `registered` (where registrations of the same segments
 /// have put them), the expected ones are scaled axis by axis to what the odometry's motions differ
 /// from the registered ones by (median, as for normal errors; at most `max_factor` up or down), and
-/// motions that differ by more than `outlier` such deviations get so wide that they hold nothing
-/// but what the difference allows.
+/// motions that differ by more than `max_deviation` such deviations get so wide that they hold
+/// nothing but what the difference allows.
 OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
-                             const MotionNoise& noise, double max_factor, double outlier);
+                             const MotionNoise& noise, double max_factor, double max_deviation);
 
-/// Relations of a pose graph from these.
-Relations relations_from(const std::vector<Motion6>& motions);
+/// Constraints of a pose graph from these.
+Constraints constraints_from(const std::vector<Motion6>& motions);
 
 }  // namespace plumb

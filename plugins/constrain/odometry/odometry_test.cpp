@@ -125,13 +125,13 @@ TEST(OdometryNoise, OfFewerThanTwoPosesIsNone) {
   EXPECT_THAT(odometry_noise({}, nullptr, usual, 10, 6).motions, IsEmpty());
 }
 
-TEST(OdometryRelations, CountOneForOneStandardDeviationAlongEachAxis) {
+TEST(OdometryConstraints, CountOneForOneStandardDeviationAlongEachAxis) {
   const Poses odometry = chain(drive(4));
   const auto noise = odometry_noise(odometry, nullptr, usual, 10, 6);
-  const Relations relations = relations_from(noise.motions);
-  ASSERT_EQ(relations.relative.size(), 4u);
-  EXPECT_FALSE(relations.planar);
-  const RelativePose& r = relations.relative[2];
+  const Constraints constraints = constraints_from(noise.motions);
+  ASSERT_EQ(constraints.relative.size(), 4u);
+  EXPECT_FALSE(constraints.planar);
+  const RelativePose& r = constraints.relative[2];
   EXPECT_EQ(r.i, 2u);
   EXPECT_EQ(r.j, 3u);
   for (int axis = 0; axis < 6; ++axis) {
@@ -150,8 +150,8 @@ TEST(OdometryRelations, CountOneForOneStandardDeviationAlongEachAxis) {
 
 /// Four segments of three frames, 1 m apart along x, cut from another trajectory: only first and
 /// end count.
-std::vector<Range> ranges() {
-  std::vector<Range> result(4);
+std::vector<FrameRange> ranges() {
+  std::vector<FrameRange> result(4);
   for (std::uint32_t k = 0; k < 4; ++k) result[k].first = 3 * k, result[k].end = 3 * k + 3;
   return result;
 }
@@ -166,7 +166,7 @@ Trajectory odometry() {
 }
 Poses middles() {
   Poses poses;
-  for (const Range& range : ranges())
+  for (const FrameRange& range : ranges())
     poses.T_world_segment.push_back(odometry().T_world_frame[range.first + 1]);
   return poses;
 }
@@ -193,14 +193,14 @@ std::pair<double, double> sigmas(StepRun step) {
 
 TEST(ConstrainOdometry, JoinsTheMiddleFramesOfEachSegmentAndTheNext) {
   TestContext context;
-  const auto relations = wired().run<Relations>("relations", context);
-  ASSERT_EQ(relations.relative.size(), 3u);
+  const auto constraints = wired().run<Constraints>("constraints", context);
+  ASSERT_EQ(constraints.relative.size(), 3u);
   for (std::uint32_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(relations.relative[k].i, k);
-    EXPECT_EQ(relations.relative[k].j, k + 1);
-    EXPECT_LT((relations.relative[k].T_i_j.translation - Eigen::Vector3d(3, 0, 0)).norm(), 1e-12);
+    EXPECT_EQ(constraints.relative[k].i, k);
+    EXPECT_EQ(constraints.relative[k].j, k + 1);
+    EXPECT_LT((constraints.relative[k].T_i_j.translation - Eigen::Vector3d(3, 0, 0)).norm(), 1e-12);
   }
-  EXPECT_NEAR(relations.relative[0].information(0, 0), 1 / (0.02 * 0.02 + 0.09 * 0.09), 1e-6);
+  EXPECT_NEAR(constraints.relative[0].information(0, 0), 1 / (0.02 * 0.02 + 0.09 * 0.09), 1e-6);
   const auto metrics = wired().run<Metrics>("metrics", context);
   std::vector<std::string> names;
   for (const auto& number : metrics.numbers) names.push_back(number.name + "[" + number.unit + "]");
@@ -234,13 +234,13 @@ TEST(ConstrainOdometry, RefusesPosesAndRangesOfOtherSegments) {
   TestContext context;
   Poses registered = middles();
   registered.T_world_segment.pop_back();
-  const auto other_poses =
-      refusal([&] { wired().with("registered", registered).run<Relations>("relations", context); });
+  const auto other_poses = refusal(
+      [&] { wired().with("registered", registered).run<Constraints>("constraints", context); });
   EXPECT_THAT(other_poses, HasSubstr("4 segments and 3 registered poses"));
   auto far = ranges();
   far[3].end = 13;
   const auto other_frames =
-      refusal([&] { wired().each("ranges", far).run<Relations>("relations", context); });
+      refusal([&] { wired().each("ranges", far).run<Constraints>("constraints", context); });
   EXPECT_THAT(other_frames, HasSubstr("segment 3 has frames up to 13, the trajectory only 12"));
 }
 
@@ -273,7 +273,7 @@ TEST(ConstrainOdometry, WithAScaleLeavesRatiosAndAnglesAlone) {
 TEST(ConstrainOdometry, RefusesAScaleWithoutAPositiveNumber) {
   TestContext context;
   const auto said = [&](const Metrics& scale) {
-    return refusal([&] { wired().with("scale", scale).run<Relations>("relations", context); });
+    return refusal([&] { wired().with("scale", scale).run<Constraints>("constraints", context); });
   };
   EXPECT_THAT(said({}), HasSubstr("'scale' must have a positive number"));
   for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(),

@@ -9,65 +9,67 @@ namespace {
 struct ConstrainOdometry : WholeStep {
   struct In {
     One<Trajectory> trajectory;
-    Each<Range> ranges;
+    Each<FrameRange> ranges;
     One<Poses> registered;
     One<Metrics> scale;
   };
   struct Out {
-    Relations relations;
+    Constraints constraints;
     Metrics metrics;
   };
   struct Params : MotionNoise {
     double max_factor = 10;
-    double outlier = 6;
+    double max_deviation = 6;
   };
 
   static void describe(Declaration<ConstrainOdometry>& is) {
     is.name("constrain.odometry").version(1).source("ours");
-    is.summary("Makes constraints of the odometry's motions, as firm as the odometry is good.");
+    is.summary(
+        "Makes relative-pose constraints of the odometry's motions, weighted by the odometry's "
+        "accuracy.");
     is.input("trajectory", &In::trajectory, "the odometry: the poses of all frames");
     is.input(
         "ranges", &In::ranges,
         "the frames of each segment, cut from this or any other trajectory of the same frames");
     is.optional_input("registered", &In::registered,
-                      "where registrations of neighbouring segments put the same segments: tells "
-                      "how good the odometry is, axis by axis");
+                      "poses of the same segments after registration of neighbours: the odometry's "
+                      "accuracy is measured against them, axis by axis");
     is.scale(&In::scale);
-    is.output("relations", &Out::relations,
+    is.output("constraints", &Out::constraints,
               "the motion from each segment to the next, with its information");
-    is.output(
-        "metrics", &Out::metrics,
-        "median deviations that were used, and how many motions contradict the registrations");
+    is.output("metrics", &Out::metrics,
+              "median standard deviations that were used, and how many motions contradict the "
+              "registrations");
     is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre))
         .unit("%")
         .range(1e-6, 10)
-        .doc("standard deviation of a motion's translation, of its length");
+        .doc("standard deviation of the translation, as a share of its length");
     is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre))
         .unit("rad/m")
-        .range(1e-8, 10)
-        .doc("standard deviation of a motion's rotation for each metre of it");
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation for each metre of translation");
     is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn))
         .unit("%")
         .range(0, 10)
-        .doc("the same, of its rotation");
+        .doc("standard deviation of the rotation, as a share of the rotation");
     is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma))
         .unit("m")
         .range(1e-6, 1e3)
-        .doc("standard deviation of a motion's translation at rest");
+        .doc("standard deviation of the translation at rest");
     is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma))
         .unit("rad")
-        .range(1e-8, 10)
-        .doc("standard deviation of a motion's rotation at rest");
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation at rest");
     is.param("max_factor", &Params::max_factor)
         .range(1, 1e6)
         .doc(
-            "with 'registered': the deviations are scaled to the differences seen, up or down by "
-            "at most this");
-    is.param("outlier", &Params::outlier)
+            "with 'registered': the standard deviations are scaled to the observed differences, up "
+            "or down by at most this factor");
+    is.param("max_deviation", &Params::max_deviation)
         .range(1, 1e6)
         .doc(
-            "with 'registered': a motion that differs by more standard deviations is held no "
-            "firmer than that difference");
+            "with 'registered': a motion that differs by more standard deviations gets that "
+            "difference as its standard deviation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -77,9 +79,9 @@ struct ConstrainOdometry : WholeStep {
                   std::to_string(in.registered->size()) +
                   " registered poses: wire ranges and poses of the same segments");
     const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params,
-                                      params.max_factor, params.outlier);
+                                      params.max_factor, params.max_deviation);
     Out out;
-    out.relations = relations_from(noise.motions);
+    out.constraints = constraints_from(noise.motions);
     const char* axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
     for (int axis = 0; axis < 6; ++axis) {
       std::vector<double> sigmas;

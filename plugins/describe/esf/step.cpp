@@ -18,13 +18,16 @@ struct DescribeEsf : SegmentStep {
   static void describe(Declaration<DescribeEsf>& is) {
     is.name("describe.esf").version(1);
     is.summary(
-        "Describes the shape of a whole segment by an ensemble of shape functions, 640 numbers.");
+        "Computes the ESF descriptor of a whole segment (ensemble of shape functions, 640 "
+        "numbers).");
     is.source("[Wohlkinger2011]; [Tang2024] 2.3.1");
     is.input("segment", &In::segment, "the cloud");
-    is.output("descriptor", &Out::descriptor, "ten histograms of 64 bins, in all summing to 1");
+    is.output("descriptor", &Out::descriptor, "ten histograms of 64 bins that sum to 1");
     is.param("samples", &Params::samples)
         .range(100, 10000000)
-        .doc("random triples of points; the scatter of the numbers falls with their root");
+        .doc(
+            "random triples of points; the noise of the descriptor falls with the square root of "
+            "their number");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -27,7 +27,7 @@ Oriented point_at(const Support& s, std::uint32_t place) {
 float squared_reach(const Oriented& point, const Candidates& candidates, const FpfhOptions& options,
                     std::vector<float>& scratch) {
   const auto r = static_cast<float>(options.radius);
-  if (!options.most_neighbours) return r * r;
+  if (!options.max_neighbours) return r * r;
   scratch.clear();
   for (std::size_t k = 0; k < candidates.size; ++k) {
     const float dx = candidates.x[k] - point.x, dy = candidates.y[k] - point.y,
@@ -35,8 +35,8 @@ float squared_reach(const Oriented& point, const Candidates& candidates, const F
     const float squared = (dx * dx + dy * dy) + dz * dz;
     if (squared <= r * r) scratch.push_back(squared);
   }
-  if (scratch.size() <= *options.most_neighbours) return r * r;
-  const auto last = scratch.begin() + (*options.most_neighbours - 1);
+  if (scratch.size() <= *options.max_neighbours) return r * r;
+  const auto last = scratch.begin() + (*options.max_neighbours - 1);
   std::nth_element(scratch.begin(), last, scratch.end());
   return *last;
 }
@@ -147,7 +147,7 @@ Fpfh fpfh(const Cloud& cloud, const std::vector<std::uint32_t>& keys, const Fpfh
         const float reach = squared_reach(point, candidates, options, scratch);
         const auto neighbours =
             weigh(point, candidates, reach, spfh, vectors.data() + key * dimension);
-        described[key] = neighbours > options.least_neighbours;
+        described[key] = neighbours > options.min_neighbours;
         at_border[key] = largest_gap(point, candidates, reach) > options.border_angle;
       });
 

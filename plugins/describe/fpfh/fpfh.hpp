@@ -9,17 +9,16 @@
 namespace plumb {
 
 struct FpfhOptions {
-  double radius = 2.5;                           ///< [m] of a neighbourhood
-  std::optional<std::uint32_t> most_neighbours;  ///< only so many of them, the nearest
-  std::uint32_t least_neighbours = 10;           ///< a key point with fewer gets no feature
-  double border_angle =
-      1.5707963267948966;  ///< [rad] a wider gap between neighbours makes a border
+  double radius = 2.5;                          ///< [m] of a neighbourhood
+  std::optional<std::uint32_t> max_neighbours;  ///< only so many of them, the nearest
+  std::uint32_t min_neighbours = 10;            ///< a keypoint with fewer gets no feature
+  double border_angle = 90 * deg;  ///< [rad] a wider gap between neighbours makes a border
 };
 
 struct Fpfh {
   Features features;                 ///< dimension 33
-  std::vector<std::uint32_t> index;  ///< of each key point in the cloud
-  std::size_t left_out = 0;          ///< key points with too few neighbours
+  std::vector<std::uint32_t> index;  ///< of each keypoint in the cloud
+  std::size_t left_out = 0;          ///< keypoints with too few neighbours
 };
 
 /// Describes the points `keys` of `cloud`, in that order, the whole cloud being the support. Points

@@ -43,7 +43,7 @@ float squared_distance(const Cloud& cloud, std::size_t a, std::size_t b) {
 FpfhOptions within(double radius, std::optional<std::uint32_t> most = {}) {
   FpfhOptions options;
   options.radius = radius;
-  options.most_neighbours = most;
+  options.max_neighbours = most;
   return options;
 }
 

@@ -15,7 +15,7 @@ struct InCell {
 
 }  // namespace
 
-std::vector<std::uint32_t> key_points(const Cloud& cloud, double leaf) {
+std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
   std::vector<std::uint32_t> result;
   if (!cloud.has_normals()) return result;
   std::vector<InCell> points;
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double leaf) {
   for (std::size_t k = 0; k < cloud.size(); ++k) {
     const Eigen::Vector3f normal = cloud.normal(k);
     if (!cloud.point(k).allFinite() || !normal.allFinite() || normal.isZero()) continue;
-    const Eigen::Vector3d at = cloud.point(k).cast<double>() / leaf;
+    const Eigen::Vector3d at = cloud.point(k).cast<double>() / voxel_size;
     const auto cell = [&](int c) { return static_cast<std::int64_t>(std::floor(at[c])); };
     points.push_back({{cell(0), cell(1), cell(2)}, static_cast<std::uint32_t>(k)});
   }

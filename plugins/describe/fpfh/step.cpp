@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include "fpfh.hpp"
 #include "key_points.hpp"
@@ -17,38 +16,41 @@ struct DescribeFpfh : SegmentStep {
     Features features;
   };
   struct Params {
-    double key_point_leaf = 0.8;
+    double keypoint_voxel_size = 0.8;
     double radius = 2.5;
-    std::optional<std::uint32_t> most_neighbours;
-    std::uint32_t least_neighbours = 10;
-    double border_angle = std::numbers::pi / 2;
+    std::optional<std::uint32_t> max_neighbours;
+    std::uint32_t min_neighbours = 10;
+    double border_angle = 90 * deg;
   };
 
   static void describe(Declaration<DescribeFpfh>& is) {
     is.name("describe.fpfh").version(1);
-    is.summary("Describes key points by fast point feature histograms, 33 numbers each.");
+    is.summary(
+        "Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
     is.source("[Rusu2009] II; [Tang2024] 2.3.2");
     is.input("segment", &In::segment, "a cloud with normals");
     is.scale(&In::scale);
-    is.output("features", &Out::features, "key points with their histograms and border marks");
-    is.param("key_point_leaf", &Params::key_point_leaf)
+    is.output("features", &Out::features, "keypoints with their histograms and border marks");
+    is.param("keypoint_voxel_size", &Params::keypoint_voxel_size)
         .unit("m")
         .range(0.01, 100)
-        .doc("one key point per cubic cell of this edge");
+        .doc("edge length of the voxels; each has one keypoint");
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.01, 100)
-        .doc("how far the neighbourhood of a point reaches");
-    is.param("most_neighbours", &Params::most_neighbours)
+        .doc("radius of a point's neighbourhood");
+    is.param("max_neighbours", &Params::max_neighbours)
         .range(3, 100000)
-        .doc("only so many neighbours, the nearest; none: all within the radius");
-    is.param("least_neighbours", &Params::least_neighbours)
+        .doc("only this many nearest neighbours are used; none: all within the radius");
+    is.param("min_neighbours", &Params::min_neighbours)
         .range(1, 100000)
-        .doc("key points with fewer neighbours are left out");
+        .doc("keypoints with fewer neighbours are dropped");
     is.param("border_angle", &Params::border_angle)
         .unit("rad")
-        .range(std::numbers::pi / 4, 2 * std::numbers::pi)
-        .doc("a key point is at the border if no neighbour lies within a sector wider than this")
+        .range(45 * deg, 360 * deg)
+        .doc(
+            "a keypoint is at the border if its neighbours leave a sector free that is wider than "
+            "this")
         .source("[Xiong2018]");
   }
 
@@ -57,11 +59,11 @@ struct DescribeFpfh : SegmentStep {
     if (!cloud.empty() && !cloud.has_normals())
       throw Error("describe.fpfh: the segment has no normals; put estimate.normals before it");
     Fpfh result =
-        fpfh(cloud, key_points(cloud, params.key_point_leaf),
-             {params.radius, params.most_neighbours, params.least_neighbours, params.border_angle},
+        fpfh(cloud, key_points(cloud, params.keypoint_voxel_size),
+             {params.radius, params.max_neighbours, params.min_neighbours, params.border_angle},
              context);
     if (result.left_out > 0)
-      context.count("key points with too few neighbours left out", result.left_out);
+      context.count("keypoints with too few neighbours left out", result.left_out);
     return {std::move(result.features)};
   }
 };

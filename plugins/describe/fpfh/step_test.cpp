@@ -21,7 +21,7 @@ TEST(DescribeFpfhStep, GivesKeyPointsWithHistogramsNormalsAndBorderMarks) {
   EXPECT_EQ(features.dimension, 33u);
   EXPECT_GT(features.size(), 200u);
   EXPECT_LT(features.size(), 1000u);
-  EXPECT_EQ(context.counts["key points with too few neighbours left out"], 1u);
+  EXPECT_EQ(context.counts["keypoints with too few neighbours left out"], 1u);
   // The ground ends at 12 m on two sides.
   for (std::size_t k = 0; k < features.size(); ++k) {
     const bool on_the_end =

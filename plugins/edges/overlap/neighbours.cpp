@@ -38,7 +38,7 @@ Neighbourhood neighbours(std::size_t count,
     boxes[k] = world_box(at_hand->box, poses.T_world_segment[k]);
     centroids[k] = poses.T_world_segment[k] * at_hand->centroid.cast<double>().eval();
   });
-  const Lattice lattice = lattice_over(boxes, options.voxel);
+  const Lattice lattice = lattice_over(boxes, options.resolution);
   std::vector<Voxels> voxels(count);
   context.parallel(count, [&](std::size_t k) {
     voxels[k] = voxels_of(segment(k)->cloud, poses.T_world_segment[k], lattice);
@@ -59,9 +59,10 @@ Neighbourhood neighbours(std::size_t count,
     smallest = std::min(smallest, consecutive[k]);
     if (consecutive[k] == 0) result.disconnected.push_back(k);
   }
-  result.threshold = std::max(options.threshold.value_or(options.margin * smallest), options.least);
+  result.threshold =
+      std::max(options.threshold.value_or(options.margin * smallest), options.min_threshold);
 
-  auto pairs = meeting(boxes, options.voxel);
+  auto pairs = meeting(boxes, options.resolution);
   std::erase_if(pairs, [](const Pair& p) { return p.second - p.first == 1; });
   std::vector<double> overlaps(pairs.size());
   context.parallel(pairs.size(), [&](std::size_t n) {

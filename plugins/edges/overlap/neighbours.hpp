@@ -13,11 +13,11 @@
 namespace plumb {
 
 struct OverlapOptions {
-  double voxel = 1;  ///< [m]
+  double resolution = 1;  ///< [m]
   /// On the overlap; none: margin x the smallest of consecutive segments.
   std::optional<double> threshold;
   double margin = 0.9;
-  double least = 0.05;  ///< the threshold is never below this
+  double min_threshold = 0.05;  ///< the threshold is never below this
 };
 
 struct Neighbourhood {

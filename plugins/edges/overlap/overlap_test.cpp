@@ -136,7 +136,7 @@ struct OutAndBack {
   }
   Edges run(TestContext& context, std::optional<double> threshold = {}) const {
     StepRun step(*plumb_module());
-    step.each("segments", segments).with("poses", poses).set("voxel", 2.0);
+    step.each("segments", segments).with("poses", poses).set("resolution", 2.0);
     if (threshold) step.set("threshold", *threshold);
     return step.run<Edges>("edges", context);
   }

@@ -17,16 +17,17 @@ struct OverlapEdges : WholeStep {
 
   static void describe(Declaration<OverlapEdges>& is) {
     is.name("edges.overlap").version(1);
-    is.summary("Joins segments whose clouds overlap, and all that follow each other.");
+    is.summary(
+        "Proposes edges between segments whose clouds overlap, and between consecutive ones.");
     is.source("[Tang2024] 2.3.1");
     is.input("segments", &In::segments, "the clouds");
-    is.input("poses", &In::poses, "where the segments are at present");
+    is.input("poses", &In::poses, "the current poses of the segments");
     is.scale(&In::scale);
     is.output("edges", &Out::edges, "sequential edges, and neighbours; the score is the overlap");
-    is.param("voxel", &Params::voxel)
+    is.param("resolution", &Params::resolution)
         .unit("m")
         .range(0.01, 100)
-        .doc("edge of the octree's leaves: points in the same one overlap");
+        .doc("edge length of the octree's leaves: points in the same leaf overlap");
     is.param("threshold", &Params::threshold)
         .unit("%")
         .range(0, 1)
@@ -34,10 +35,10 @@ struct OverlapEdges : WholeStep {
             "pairs that overlap more are neighbours; none: 'margin' x the smallest overlap of "
             "consecutive segments");
     is.param("margin", &Params::margin).unit("%").range(0.01, 1).doc("see 'threshold'");
-    is.param("least", &Params::least)
+    is.param("min_threshold", &Params::min_threshold)
         .unit("%")
         .range(0, 1)
-        .doc("the threshold is never below this, however little some consecutive segments overlap");
+        .doc("lower bound of the threshold, for consecutive segments that hardly overlap");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

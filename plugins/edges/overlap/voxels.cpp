@@ -64,7 +64,7 @@ Lattice lattice_over(const std::vector<Eigen::AlignedBox3d>& boxes, double size)
   if (!(longest <= 1 << most_bits))
     throw Error("the segments reach over " + short_number(all.sizes().maxCoeff()) +
                 " m, too far for voxels of " + short_number(size) +
-                " m: take a larger 'voxel', or see whether the poses are right");
+                " m: take a larger 'resolution', or see whether the poses are right");
   return {size, size * first,
           static_cast<int>(std::bit_width(static_cast<std::uint32_t>(longest)))};
 }

@@ -18,30 +18,30 @@ struct SelectEdges : WholeStep {
   static void describe(Declaration<SelectEdges>& is) {
     is.name("edges.select").version(1).source("ours");
     is.summary(
-        "Keeps few edges of each segment: near and far ones along the path, and the best of each "
-        "other visit.");
-    is.input("edges", &In::edges, "all edges; the score tells which are better");
-    is.input("poses", &In::poses, "where the segments are, for the path between them");
+        "Keeps a few edges of each segment: some along the path, and the best ones to each other "
+        "visit.");
+    is.input("edges", &In::edges, "all edges; a higher score is better");
+    is.input("poses", &In::poses, "poses of the segments, for the path between them");
     is.scale(&In::scale);
     is.output("edges", &Out::edges,
-              "all sequential edges, and those that one of their ends asks for");
+              "all sequential edges, and those that one of their ends selects");
     is.param("max_path_separation", &Params::max_path_separation)
         .unit("m")
         .range(0, 1e6)
         .doc(
-            "edges between segments with more path between them are dropped: no revisits; none: "
-            "however far");
+            "edges between segments with more path between them are dropped, which removes "
+            "revisits; none: no limit");
     is.param("max_along", &Params::max_along)
         .range(0, 20)
         .doc(
-            "edges that a segment asks for along the path, to each side: to those 2, 3, 5, 8 ... "
-            "away");
+            "edges that a segment selects along the path, in each direction: to those 2, 3, 5, 8 "
+            "... away");
     is.param("max_visits", &Params::max_visits)
         .range(0, 1000)
-        .doc("other visits of its place that a segment asks for");
+        .doc("other visits to its place that a segment selects");
     is.param("per_visit", &Params::per_visit)
         .range(1, 1000)
-        .doc("edges to each of these, those with the greatest score");
+        .doc("edges to each of these visits, those with the greatest score");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -21,15 +21,16 @@ TEST(SequentialEdges, JoinEachSegmentWithTheNext) {
 TEST(SequentialEdges, AreNoneForOneSegmentAndThatIsSaid) {
   EXPECT_EQ(sequential_edges({}).size(), 0u);
   TestContext context;
-  const auto edges =
-      StepRun(*plumb_module()).each("ranges", std::vector<Range>(1)).run<Edges>("edges", context);
+  const auto edges = StepRun(*plumb_module())
+                         .each("ranges", std::vector<FrameRange>(1))
+                         .run<Edges>("edges", context);
   EXPECT_EQ(edges.size(), 0u);
   EXPECT_EQ(edges.segments, 1u);
   EXPECT_EQ(context.warnings.size(), 1u);
 }
 
 TEST(SequentialEdges, TakePlacesFromTheRanges) {
-  std::vector<Range> ranges(3);
+  std::vector<FrameRange> ranges(3);
   for (int k = 0; k < 3; ++k) ranges[k].T_world_segment.translation.x() = 5e6 + 10 * k;
   TestContext context;
   const auto edges = StepRun(*plumb_module()).each("ranges", ranges).run<Edges>("edges", context);

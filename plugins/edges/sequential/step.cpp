@@ -6,7 +6,7 @@ namespace {
 
 struct SequentialEdges : WholeStep {
   struct In {
-    Each<Range> ranges;
+    Each<FrameRange> ranges;
   };
   struct Out {
     Edges edges;
@@ -14,10 +14,12 @@ struct SequentialEdges : WholeStep {
   struct Params {};
 
   static void describe(Declaration<SequentialEdges>& is) {
-    is.name("edges.sequential").version(1).summary("Joins every segment with the next one.");
+    is.name("edges.sequential")
+        .version(1)
+        .summary("Proposes an edge from every segment to the next one.");
     is.source("[Tang2024] 2.3.1");
-    is.input("ranges", &In::ranges, "the segments' frames and places, as they were cut");
-    is.output("edges", &Out::edges, "one edge less than there are segments");
+    is.input("ranges", &In::ranges, "the frames and poses of the segments");
+    is.output("edges", &Out::edges, "one edge fewer than there are segments");
   }
 
   Out run(const In& in, const Params&, Context& context) const {

@@ -14,9 +14,9 @@ struct UnionOfEdges : WholeStep {
   struct Params {};
 
   static void describe(Declaration<UnionOfEdges>& is) {
-    is.name("edges.union").version(1).summary("Joins several lists of edges, each pair once.");
+    is.name("edges.union").version(1).summary("Merges several lists of edges, each pair once.");
     is.source("[Tang2024] 2.4.1");
-    is.input("edges", &In::edges, "lists of edges; the first to name a pair decides on its kind");
+    is.input("edges", &In::edges, "lists of edges; the first that has a pair decides its kind");
     is.output("edges", &Out::edges, "all pairs, in order");
   }
 

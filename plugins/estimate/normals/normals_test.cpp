@@ -70,7 +70,7 @@ TEST(Normals, OfASphereArePointingAlongItsRadius) {
     EXPECT_LT(cloud.normal(k).dot(cloud.point(k)) / 5, -0.99f) << k;
 }
 
-TEST(Normals, AreZeroForLonelyPointsAndForALine) {
+TEST(Normals, AreZeroForOutliersAndForALine) {
   Cloud cloud;
   cloud.add({100, 0, 0});
   cloud.add({100, 0.1f, 0});

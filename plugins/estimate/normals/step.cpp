@@ -14,20 +14,21 @@ struct EstimateNormals : SegmentStep {
   };
   struct Params {
     std::optional<double> radius = 1.0;
-    std::optional<std::uint32_t> neighbours = 30;
+    std::optional<std::uint32_t> max_neighbours = 30;
     double min_width = 1e-3;
     double max_thickness = 1;
     bool planar = false;
     std::string check() const {
-      return radius || neighbours ? ""
-                                  : "'radius' and 'neighbours' are both none; give one of them";
+      return radius || max_neighbours
+                 ? ""
+                 : "'radius' and 'max_neighbours' are both none; give one of them";
     }
   };
 
   static void describe(Declaration<EstimateNormals>& is) {
     is.name("estimate.normals").version(1);
     is.summary(
-        "Gives every point the normal of its neighbourhood, turned to where the sensor stood.");
+        "Estimates the normal of every point from its neighbourhood, oriented towards the sensor.");
     is.source("[Rusu2009] II.A; turned as in [Tang2024] 2.3.2");
     is.input("segment", &In::segment, "the cloud");
     is.scale(&In::scale);
@@ -36,25 +37,28 @@ struct EstimateNormals : SegmentStep {
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.001, 100)
-        .doc("neighbours lie within this distance; none: however far");
-    is.param("neighbours", &Params::neighbours)
+        .doc("neighbours lie within this distance; none: no limit");
+    is.param("max_neighbours", &Params::max_neighbours)
         .range(3, 1000)
         .doc(
-            "at most so many, the nearest, the point itself included; none: all within the radius");
+            "only this many nearest points are used, the point itself included; none: all within "
+            "the radius");
     is.param("min_width", &Params::min_width)
         .unit("%")
         .range(0, 1)
         .doc(
-            "neighbours that are spread across by less than this share of their spread along lie "
-            "on a line, which has no normal: of one scan line");
+            "a neighbourhood whose width is less than this share of its length is a line, such as "
+            "a single scan line, and has no normal");
     is.param("max_thickness", &Params::max_thickness)
         .unit("%")
         .range(0, 1)
         .doc(
-            "neighbours that are spread off their plane by more than this share of their spread "
-            "across lie on no surface, as in a tree");
+            "a neighbourhood whose thickness is more than this share of its width is no surface, "
+            "such as foliage, and has no normal");
     is.param("planar", &Params::planar)
-        .doc("the clouds are a 2-D laser's: normals of lines in the plane, (0, 0, 0) at corners");
+        .doc(
+            "the clouds come from a 2-D laser: normals of lines in the plane, (0, 0, 0) at "
+            "corners");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -62,7 +66,8 @@ struct EstimateNormals : SegmentStep {
     Cloud cloud = segment.cloud;
     const std::size_t without = estimate_normals(
         cloud, segment.tree(),
-        {params.radius, params.neighbours, params.min_width, params.max_thickness, params.planar},
+        {params.radius, params.max_neighbours, params.min_width, params.max_thickness,
+         params.planar},
         [&](std::size_t k) { return segment.origin(k); }, context);
     if (without > 0) context.count("points without a normal", without);
     return {segment.with(std::move(cloud), segment.frame)};

@@ -4,7 +4,7 @@ namespace plumb {
 namespace {
 
 /// A horizontal patch, seen by frame 0 from above (even points) and by frame 1 from below (odd
-/// points), and a lonely point.
+/// points), and an outlier.
 Segment patch() {
   Cloud cloud;
   std::vector<std::uint16_t> frames;
@@ -52,7 +52,9 @@ TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
 TEST(EstimateNormalsStep, RefusesANeighbourhoodWithoutBounds) {
   TestContext context;
   StepRun step(*plumb_module());
-  step.with("segment", patch()).set("radius", std::monostate()).set("neighbours", std::monostate());
+  step.with("segment", patch())
+      .set("radius", std::monostate())
+      .set("max_neighbours", std::monostate());
   EXPECT_THROW(step.run<Segment>("segment", context), Error);
 }
 

@@ -21,8 +21,8 @@ double usual_speed(const Trajectory& trajectory) {
   return count > 0 ? *(moving + count / 2) : 0;
 }
 
-double scale_at(double speed, double full_speed, double min) {
-  return speed > 0 ? std::clamp(speed / full_speed, min, 1.0) : 1.0;
+double scale_at(double speed, double full_speed, double min_factor) {
+  return speed > 0 ? std::clamp(speed / full_speed, min_factor, 1.0) : 1.0;
 }
 
 }  // namespace plumb

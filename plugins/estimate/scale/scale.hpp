@@ -9,7 +9,7 @@ namespace plumb {
 /// the fastest tenth) left out; 0 where stamps do not grow or nothing moves.
 double usual_speed(const Trajectory& trajectory);
 
-/// speed / full_speed, from `min` to 1; 1 for a speed of 0.
-double scale_at(double speed, double full_speed, double min);
+/// speed / full_speed, from `min_factor` to 1; 1 for a speed of 0.
+double scale_at(double speed, double full_speed, double min_factor);
 
 }  // namespace plumb

@@ -94,7 +94,7 @@ TEST(EstimateScale, TellsACarFromAWalk) {
   const double walk = run(with_speeds(a_walk())).numbers[0].value;
   EXPECT_NEAR(walk, 1.1 / 4, 0.02);
   EXPECT_NEAR(run(with_speeds(a_walk()), {{"full_speed", 2.0}}).numbers[0].value, 2 * walk, 1e-9);
-  EXPECT_EQ(run(with_speeds(a_walk()), {{"min", 0.5}}).numbers[0].value, 0.5);
+  EXPECT_EQ(run(with_speeds(a_walk()), {{"min_factor", 0.5}}).numbers[0].value, 0.5);
 }
 
 TEST(EstimateScale, GivesTheFactorFirstAndTheSpeedWithItsUnit) {

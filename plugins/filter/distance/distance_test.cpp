@@ -65,12 +65,13 @@ TEST(FilterDistance, KeepsTheFramesPlaceAndCountsWhatItDropped) {
   step.run(step.parameters({}).get(), {&input, 1}, {&output, 1}, context);
   EXPECT_EQ(output.one.as<Frame>()->index, 7u);
   EXPECT_THAT(output.one.as<Frame>()->cloud.x, ElementsAre(2));
-  EXPECT_EQ(context.counts["points nearer than min dropped"], 1u);
-  EXPECT_EQ(context.counts["points farther than max dropped"], 2u);
+  EXPECT_EQ(context.counts["points nearer than min_range dropped"], 1u);
+  EXPECT_EQ(context.counts["points farther than max_range dropped"], 2u);
 }
 
 TEST(FilterDistance, RefusesBoundsThatLeaveNothing) {
-  EXPECT_THROW(plumb_module()->steps[0]->parameters({{"min", 5.0}, {"max", 5.0}}), Error);
+  EXPECT_THROW(plumb_module()->steps[0]->parameters({{"min_range", 5.0}, {"max_range", 5.0}}),
+               Error);
 }
 
 }  // namespace

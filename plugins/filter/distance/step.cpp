@@ -12,35 +12,36 @@ struct Distance : FrameStep {
     Frame frame;
   };
   struct Params {
-    double min = 0.5;
-    double max = 300;
+    double min_range = 0.5;
+    double max_range = 300;
     std::string check() const {
-      return min < max ? "" : "min must be less than max, or no point is left";
+      return min_range < max_range ? ""
+                                   : "min_range must be less than max_range, or no point is left";
     }
   };
 
   static void describe(Declaration<Distance>& is) {
     is.name("filter.distance").version(1).source("[Tang2024] 2.2, 3.1");
-    is.summary("Keeps the points that are neither too near to the sensor nor too far from it.");
+    is.summary("Keeps the points whose distance from the sensor is within bounds.");
     is.input("frame", &In::frame, "a frame in sensor coordinates");
-    is.output("frame", &Out::frame, "its points within the distances");
-    is.param("min", &Params::min)
+    is.output("frame", &Out::frame, "its points within the bounds");
+    is.param("min_range", &Params::min_range)
         .unit("m")
         .range(0, 1e4)
-        .doc("least distance from the sensor: nearer is the carrier itself")
+        .doc("distance from the sensor; nearer points are the carrier itself")
         .source("[Tang2024] 3.1");
-    is.param("max", &Params::max)
+    is.param("max_range", &Params::max_range)
         .unit("m")
         .range(0, 1e6)
-        .doc("greatest distance from the sensor")
+        .doc("distance from the sensor")
         .source("[Tang2024] 3.1");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    Shell shell = within_shell(in.frame->cloud, static_cast<float>(params.min),
-                               static_cast<float>(params.max));
-    if (shell.nearer) context.count("points nearer than min dropped", shell.nearer);
-    if (shell.farther) context.count("points farther than max dropped", shell.farther);
+    Shell shell = within_shell(in.frame->cloud, static_cast<float>(params.min_range),
+                               static_cast<float>(params.max_range));
+    if (shell.nearer) context.count("points nearer than min_range dropped", shell.nearer);
+    if (shell.farther) context.count("points farther than max_range dropped", shell.farther);
     return {Frame{in.frame->index, std::move(shell.cloud)}};
   }
 };

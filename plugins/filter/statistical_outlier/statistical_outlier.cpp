@@ -15,13 +15,13 @@ constexpr std::size_t group_size = 8;
 
 /// Mean distances of a few near points at a time, which share one search.
 ///
-/// With c the middle of the group, h its farthest point's distance from c and r the distance of c's
-/// last wanted neighbour: each point p of the group has its wanted neighbours within r + |p - c| of
+/// With c the middle of the block, h its farthest point's distance from c and r the distance of c's
+/// last wanted neighbour: each point p of the block has its wanted neighbours within r + |p - c| of
 /// p, so all of them lie within r + 2h of c.
 class GroupSearch {
  public:
-  GroupSearch(const Cloud& cloud, const SearchTree& tree, std::size_t neighbours)
-      : cloud_(cloud), tree_(tree), wanted_(neighbours + 1), nearest_(wanted_) {}
+  GroupSearch(const Cloud& cloud, const SearchTree& tree, std::size_t mean_k)
+      : cloud_(cloud), tree_(tree), wanted_(mean_k + 1), nearest_(wanted_) {}
 
   void means_of(std::span<const std::uint32_t> group, float* means) {
     Box box;
@@ -31,7 +31,7 @@ class GroupSearch {
     for (const auto k : group) h = std::max(h, (cloud_.point(k) - c).norm());
     const std::size_t n = tree_.nearest(c, wanted_, nearest_.data());
     const float r = std::sqrt(nearest_[n - 1].squared_distance);
-    // A group with much air in it would have to look at too many points; so would all points of a
+    // A block with much air in it would have to look at too many points; so would all points of a
     // cloud that is too small.
     if (n < wanted_ || h > 1.5f * r) {
       for (const auto k : group) means[k] = alone(cloud_.point(k));
@@ -80,13 +80,13 @@ class GroupSearch {
 
 }  // namespace
 
-std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree,
-                                  std::size_t neighbours, const ParallelFor& parallel) {
+std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree, std::size_t mean_k,
+                                  const ParallelFor& parallel) {
   constexpr std::size_t task = 512 * group_size;  // points
   const std::vector<std::uint32_t> order = compact_groups(cloud, group_size);
   std::vector<float> means(cloud.size());
   parallel((order.size() + task - 1) / task, [&](std::size_t t) {
-    GroupSearch search(cloud, tree, neighbours);
+    GroupSearch search(cloud, tree, mean_k);
     const std::size_t end = std::min(order.size(), (t + 1) * task);
     for (std::size_t k = t * task; k < end; k += group_size)
       search.means_of(std::span(order).subspan(k, std::min(group_size, end - k)), means.data());
@@ -94,13 +94,13 @@ std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree,
   return means;
 }
 
-std::vector<std::uint32_t> not_beyond(const std::vector<float>& values, double deviations) {
+std::vector<std::uint32_t> not_beyond(const std::vector<float>& values, double stddev_mul_thresh) {
   const double n = static_cast<double>(values.size());
   double sum = 0, squares = 0;
   for (const float v : values) sum += v;
   const double mean = sum / n;
   for (const float v : values) squares += (v - mean) * (v - mean);
-  const double limit = mean + deviations * std::sqrt(squares / std::max(1.0, n - 1));
+  const double limit = mean + stddev_mul_thresh * std::sqrt(squares / std::max(1.0, n - 1));
   std::vector<std::uint32_t> kept;
   kept.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k)

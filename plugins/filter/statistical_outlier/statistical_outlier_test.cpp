@@ -31,9 +31,9 @@ void backwards(std::size_t n, const std::function<void(std::size_t)>& body) {
   while (n > 0) body(--n);
 }
 
-std::vector<float> means(const Cloud& cloud, std::size_t neighbours,
+std::vector<float> means(const Cloud& cloud, std::size_t mean_k,
                          const ParallelFor& parallel = one_after_the_other) {
-  return mean_distances(cloud, SearchTree(cloud), neighbours, parallel);
+  return mean_distances(cloud, SearchTree(cloud), mean_k, parallel);
 }
 
 /// A wall of points of uneven density, and some points in the air before it.
@@ -146,14 +146,15 @@ TEST(StatisticalOutlier, DropsTheBirdsAndCountsThem) {
   const auto result = output.one.as<Segment>();
   EXPECT_LT(*std::max_element(result->cloud.y.begin(), result->cloud.y.end()), 5);
   EXPECT_GE(result->cloud.size(), 4990u);
-  EXPECT_EQ(context.counts["lonely points dropped"], cloud.size() - result->cloud.size());
+  EXPECT_EQ(context.counts["outliers removed"], cloud.size() - result->cloud.size());
   EXPECT_EQ(result->frame.size(), result->cloud.size());
 }
 
 #ifdef PLUMB_HAS_PCL
 TEST(StatisticalOutlier, KeepsThePointsThatPclKeeps) {
   const Cloud cloud = wall_with_birds(20000, 400);
-  const auto theirs = twins::PclCloud(cloud.x, cloud.y, cloud.z, {}, {}, {}).without_lonely(20, 2);
+  const auto theirs =
+      twins::PclCloud(cloud.x, cloud.y, cloud.z, {}, {}, {}).without_outliers(20, 2);
   const auto ours = not_beyond(means(cloud, 20), 2);
   EXPECT_EQ(std::vector<int>(ours.begin(), ours.end()), theirs);
 }

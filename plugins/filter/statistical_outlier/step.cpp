@@ -12,32 +12,32 @@ struct StatisticalOutlier : SegmentStep {
     Segment segment;
   };
   struct Params {
-    std::uint32_t neighbours = 20;
-    double deviations = 2;
+    std::uint32_t mean_k = 20;
+    double stddev_mul_thresh = 2;
   };
 
   static void describe(Declaration<StatisticalOutlier>& is) {
     is.name("filter.statistical_outlier").version(1).source("[Tang2024] 2.2, [Rusu2008] 3.1");
-    is.summary("Drops points that are lonelier than the others.");
-    is.input("segment", &In::segment, "the cloud to clean");
-    is.output("segment", &Out::segment,
-              "the points that have their neighbours as near as others have");
-    is.param("neighbours", &Params::neighbours)
+    is.summary("Removes points whose mean distance to their neighbours is unusually large.");
+    is.input("segment", &In::segment, "the cloud to filter");
+    is.output("segment", &Out::segment, "the cloud without outliers");
+    is.param("mean_k", &Params::mean_k)
         .range(1, 1000)
-        .doc("nearest points whose mean distance counts");
-    is.param("deviations", &Params::deviations)
+        .doc("number of nearest neighbours over which a point's mean distance is taken");
+    is.param("stddev_mul_thresh", &Params::stddev_mul_thresh)
         .range(0, 100)
-        .doc("standard deviations above the mean of all points from which on a point is dropped");
+        .doc(
+            "points whose mean distance exceeds the mean of all points by more than this many "
+            "standard deviations are removed");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment& segment = *in.segment;
     const auto means =
-        mean_distances(segment.cloud, segment.tree(), params.neighbours,
+        mean_distances(segment.cloud, segment.tree(), params.mean_k,
                        [&](std::size_t n, const auto& body) { context.parallel(n, body); });
-    const auto kept = not_beyond(means, params.deviations);
-    if (kept.size() < means.size())
-      context.count("lonely points dropped", means.size() - kept.size());
+    const auto kept = not_beyond(means, params.stddev_mul_thresh);
+    if (kept.size() < means.size()) context.count("outliers removed", means.size() - kept.size());
     return {segment.selected(kept)};
   }
 };

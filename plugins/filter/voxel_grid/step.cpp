@@ -13,23 +13,26 @@ struct VoxelGrid : SegmentStep {
     Segment segment;
   };
   struct Params {
-    double leaf = 0.3;
+    double voxel_size = 0.3;
   };
 
   static void describe(Declaration<VoxelGrid>& is) {
     is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2");
-    is.summary("Keeps one point per cubic cell: the mean of the points in it.");
-    is.input("segment", &In::segment, "the cloud to thin");
+    is.summary("Downsamples a cloud to one point per voxel, the mean of its points.");
+    is.input("segment", &In::segment, "the cloud to downsample");
     is.scale(&In::scale);
     is.output("segment", &Out::segment,
-              "its cells' means, with intensity and normals where it has them");
-    is.param("leaf", &Params::leaf).unit("m").range(0.001, 1000).doc("edge length of a cell");
+              "the means of the voxels, with intensity and normals where the cloud has them");
+    is.param("voxel_size", &Params::voxel_size)
+        .unit("m")
+        .range(0.001, 1000)
+        .doc("edge length of a voxel");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    Thinned thinned = thin(*in.segment, params.leaf);
+    Thinned thinned = thin(*in.segment, params.voxel_size);
     if (thinned.dropped)
-      context.count("points with a coordinate that is no number dropped", thinned.dropped);
+      context.count("points with a non-finite coordinate dropped", thinned.dropped);
     return {in.segment->with(std::move(thinned.cloud), std::move(thinned.frame))};
   }
 };

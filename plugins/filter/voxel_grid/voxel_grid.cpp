@@ -3,14 +3,14 @@
 namespace plumb {
 
 Thinned thin(const Cloud& cloud, const std::vector<std::uint16_t>& frame,
-             const std::vector<Eigen::Vector3f>& origins, double leaf) {
-  VoxelMeans means(leaf);
+             const std::vector<Eigen::Vector3f>& origins, double voxel_size) {
+  VoxelMeans means(voxel_size);
   means.add(cloud, frame, origins);
   return means.take();
 }
 
-Thinned thin(const Segment& segment, double leaf) {
-  return thin(segment.cloud, segment.frame, segment.range.origins(), leaf);
+Thinned thin(const Segment& segment, double voxel_size) {
+  return thin(segment.cloud, segment.frame, segment.range.origins(), voxel_size);
 }
 
 }  // namespace plumb

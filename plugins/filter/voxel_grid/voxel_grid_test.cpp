@@ -19,7 +19,9 @@ using testing::ElementsAre;
 using testing::FloatEq;
 using testing::HasSubstr;
 
-Thinned thin(const Cloud& cloud, double leaf) { return plumb::thin(cloud, {}, {}, leaf); }
+Thinned thin(const Cloud& cloud, double voxel_size) {
+  return plumb::thin(cloud, {}, {}, voxel_size);
+}
 
 Cloud cloud_of(std::initializer_list<Eigen::Vector3f> points) {
   Cloud cloud;
@@ -52,19 +54,20 @@ TEST(VoxelGrid, PartsCellsAtMultiplesOfTheLeafAlsoBelowZero) {
 }
 
 TEST(VoxelGrid, AgreesWithASortedMapOfCells) {
-  for (const double leaf : {0.3, 2.0, 50.0}) {
+  for (const double voxel_size : {0.3, 2.0, 50.0}) {
     const Cloud cloud = scattered(20000, 40, {3, -7, 100});
     std::map<std::array<double, 3>, std::pair<Eigen::Vector4d, int>> cells;
     std::vector<std::array<double, 3>> order;
     for (std::size_t k = 0; k < cloud.size(); ++k) {
-      const std::array cell = {std::floor(cloud.x[k] / leaf), std::floor(cloud.y[k] / leaf),
-                               std::floor(cloud.z[k] / leaf)};
+      const std::array cell = {std::floor(cloud.x[k] / voxel_size),
+                               std::floor(cloud.y[k] / voxel_size),
+                               std::floor(cloud.z[k] / voxel_size)};
       auto [at, added] = cells.try_emplace(cell, Eigen::Vector4d::Zero(), 0);
       if (added) order.push_back(cell);
       at->second.first += Eigen::Vector4d(cloud.x[k], cloud.y[k], cloud.z[k], cloud.intensity[k]);
       ++at->second.second;
     }
-    const Cloud result = thin(cloud, leaf).cloud;
+    const Cloud result = thin(cloud, voxel_size).cloud;
     ASSERT_EQ(result.size(), cells.size());
     for (std::size_t c = 0; c < order.size(); ++c) {
       const auto& [sum, count] = cells[order[c]];
@@ -96,13 +99,13 @@ TEST(VoxelGrid, KeepsMillimetresFarFromTheOrigin) {
 }
 
 TEST(VoxelGrid, ServesCloudsAsWideAsItPromisesAndRefusesWiderOnes) {
-  const Cloud wide = cloud_of({{-1048576, 0, 0}, {1048575, 0, 0}});  // 2^21 cells of 1 m
+  const Cloud wide = cloud_of({{-1048576, 0, 0}, {1048575, 0, 0}});  // 2^21 voxels of 1 m
   EXPECT_EQ(thin(wide, 1).cloud.size(), 2u);
   try {
     thin(wide, 0.99);
     FAIL() << "not refused";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("more than 2^21 cells"));
+    EXPECT_THAT(error.what(), HasSubstr("more than 2^21 voxels"));
     EXPECT_THAT(error.what(), HasSubstr("along x"));
   }
 }
@@ -147,7 +150,7 @@ TEST(VoxelGrid, GivesASegmentWithItsOwnCentroidAndBox) {
   inputs[0].one = any_value(segment);
   PortOutput output;
   TestContext context;
-  step.run(step.parameters({{"leaf", 2.0}}).get(), inputs, {&output, 1}, context);
+  step.run(step.parameters({{"voxel_size", 2.0}}).get(), inputs, {&output, 1}, context);
   const auto result = output.one.as<Segment>();
   EXPECT_EQ(result->cloud.size(), 8u);
   EXPECT_EQ(result->frame.size(), 8u);

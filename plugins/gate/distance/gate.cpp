@@ -38,13 +38,15 @@ Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options) {
   result.edges.segments = static_cast<std::uint32_t>(scans.size());
   const std::vector<double> between = stretches(scans);
   const double longest =
-      options.gap ? std::max(*options.gap, options.patience * median_of_positive(between)) : 0;
+      options.max_time_gap
+          ? std::max(*options.max_time_gap, options.patience * median_of_positive(between))
+          : 0;
   std::optional<std::uint32_t> last;
   std::uint32_t dropped = 0;  // for their change, since the last accepted one
   bool after_gap = false;     // since the last accepted one
   for (std::uint32_t k = 0; k < scans.size(); ++k) {
-    after_gap = after_gap || (options.gap && between[k] > longest);
-    if (scans[k].points < options.least_points) {
+    after_gap = after_gap || (options.max_time_gap && between[k] > longest);
+    if (scans[k].points < options.min_points) {
       ++result.empty;
       continue;
     }

@@ -18,10 +18,10 @@ struct Seen {
 };
 
 struct GateOptions {
-  double limit = 0.1;               ///< greatest change that is accepted
-  std::uint32_t patience = 5;       ///< so many dropped in a row, then the window starts again
-  std::uint32_t least_points = 10;  ///< scans with fewer are dropped
-  std::optional<double> gap = 5;    ///< [s] without a scan, then the window starts again
+  double limit = 0.1;             ///< greatest change that is accepted
+  std::uint32_t patience = 5;     ///< so many dropped in a row, then the window starts again
+  std::uint32_t min_points = 10;  ///< scans with fewer are dropped
+  std::optional<double> max_time_gap = 5;  ///< [s] without a scan, then the window starts again
 };
 
 struct Gated {
@@ -41,8 +41,9 @@ double change_of(double r0, double r1);
 /// one before it, kind sequential. When `patience` scans were dropped for their change since the
 /// last accepted one, the next that would be begins a new window: it is accepted and joined to the
 /// last of the old one, kind neighbour. So does the first scan after a stretch without scans that
-/// is longer than `gap` and than `patience` usual ones (their median), since frames that were lost
-/// before the log are frames lost. The first scan with enough points begins the first window.
+/// is longer than `max_time_gap` and than `patience` usual ones (their median), since frames that
+/// were lost before the log are frames lost. The first scan with enough points begins the first
+/// window.
 Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options);
 
 }  // namespace plumb

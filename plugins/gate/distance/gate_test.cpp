@@ -67,7 +67,7 @@ std::vector<Seen> scans_when(const std::vector<double>& stamps) {
 
 TEST(GateDistance, StartsAgainAfterAStretchWithoutScans) {
   GateOptions options;
-  options.gap = 3;
+  options.max_time_gap = 3;
   auto scans = scans_when({0, 0.2, 0.4, 4.4, 4.6, 4.8});
   auto gated = gated_chain(scans, options);
   EXPECT_EQ(text(gated.edges), "0-1 1-2 2-3! 3-4 4-5");
@@ -75,13 +75,13 @@ TEST(GateDistance, StartsAgainAfterAStretchWithoutScans) {
   EXPECT_EQ(gated.gaps, 1u);
   scans[3].points = 0;  // the first scan after it is of no use: the next one starts
   EXPECT_EQ(text(gated_chain(scans, options).edges), "0-1 1-2 2-4! 4-5");
-  options.gap = std::nullopt;
+  options.max_time_gap = std::nullopt;
   EXPECT_EQ(gated_chain(scans, options).resets, 0u);
 }
 
 TEST(GateDistance, TakesNoGapFromSlowLogsOrStampsThatStepBack) {
   GateOptions options;
-  options.gap = 3;
+  options.max_time_gap = 3;
   EXPECT_EQ(gated_chain(scans_when({0, 4, 8, 12, 16, 30}), options).resets,
             0u);  // 14 s are but 3.5 usual stretches
   EXPECT_EQ(gated_chain(scans_when({0, 0.2, 0.4, -90, -89.8, 0.6, 0.8}), options).gaps, 1u);

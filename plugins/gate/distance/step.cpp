@@ -18,30 +18,33 @@ struct GateDistance : WholeStep {
 
   static void describe(Declaration<GateDistance>& is) {
     is.name("gate.distance").version(2).source("[Zhang2023] eq. 13");
-    is.summary("Joins each scan to the one before, leaving out those that jump.");
-    is.input("segments", &In::segments, "the scans in order, one a segment");
-    is.optional_input("trajectory", &In::trajectory,
-                      "the frames' stamps: with them a stretch without scans starts a new window");
+    is.summary(
+        "Builds a chain of consecutive scans, leaving out those whose distance to the surroundings "
+        "jumps.");
+    is.input("segments", &In::segments, "the scans in order, one per segment");
+    is.optional_input(
+        "trajectory", &In::trajectory,
+        "the frames' stamps: with them an interval without scans starts a new window");
     is.output("edges", &Out::edges, "the chain: each accepted scan and the accepted one before it");
-    is.output("metrics", &Out::metrics, "scans accepted and dropped, windows started again");
+    is.output("metrics", &Out::metrics, "scans accepted and dropped, windows restarted");
     is.param("limit", &Params::limit)
         .range(0, 1)
         .doc(
-            "greatest (r0 - r1)^2 / (r0 + r1)^2 that is accepted, r being how far a scan's centre "
-            "lies from the sensor")
+            "upper bound of (r0 - r1)^2 / (r0 + r1)^2, where r is the distance of a scan's "
+            "centroid from the sensor")
         .source("[Zhang2023] eq. 13");
     is.param("patience", &Params::patience)
         .range(0, 1e6)
         .doc(
-            "after so many dropped in a row the window is emptied and starts again with the "
+            "after this many scans dropped in a row the window is cleared and restarts with the "
             "present scan");
-    is.param("gap", &Params::gap)
+    is.param("max_time_gap", &Params::max_time_gap)
         .unit("s")
         .range(0, 1e9)
         .doc(
-            "after a longer stretch without scans, if it is longer than 'patience' usual ones too, "
-            "the window starts again; none: never");
-    is.param("least_points", &Params::least_points)
+            "after a longer interval without scans, if it is also longer than 'patience' usual "
+            "ones, the window restarts; none: never");
+    is.param("min_points", &Params::min_points)
         .range(1, 1e6)
         .doc("scans with fewer points are dropped");
   }
@@ -52,7 +55,7 @@ struct GateDistance : WholeStep {
       const auto segment = in.segments.open(k);
       scans[k] = {segment->centroid.cast<double>().norm(), segment->cloud.size()};
       if (!in.trajectory) return;
-      const Range& range = segment->range;
+      const FrameRange& range = segment->range;
       if (range.size() == 0 || range.end > in.trajectory->size())
         throw Error("a segment holds frames up to " + std::to_string(range.end) +
                     ", the trajectory has " + std::to_string(in.trajectory->size()) +
@@ -66,7 +69,7 @@ struct GateDistance : WholeStep {
     };
     count("scans dropped because they jump", gated.far);
     count("scans dropped because they have too few points", gated.empty);
-    count("windows started again", gated.resets);
+    count("windows restarted", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)
       context.warn("fewer than two scans of " + std::to_string(scans.size()) +

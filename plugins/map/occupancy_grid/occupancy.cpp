@@ -54,10 +54,10 @@ GridMap map_round(const std::vector<PlacedScan>& scans, const GridOptions& optio
   if (scans.empty()) return map;
   const Eigen::Array2d first = (bounds.low / options.resolution).floor() - 1;
   const Eigen::Array2d cells = (bounds.high / options.resolution).floor() - first + 2;
-  if (cells.prod() > static_cast<double>(options.most_cells) || cells.maxCoeff() > 4e6)
+  if (cells.prod() > static_cast<double>(options.max_cells) || cells.maxCoeff() > 4e6)
     throw Error("the map would have " + std::to_string(static_cast<long long>(cells.x())) + " x " +
                 std::to_string(static_cast<long long>(cells.y())) + " cells, more than " +
-                std::to_string(options.most_cells) +
+                std::to_string(options.max_cells) +
                 "; give a larger resolution, or look whether the trajectory runs away");
   map.origin = (first * options.resolution).matrix();
   map.columns = static_cast<std::uint32_t>(cells.x());
@@ -98,8 +98,8 @@ class Band {
         last_(last),
         hit_(static_cast<float>(options.hit)),
         miss_(static_cast<float>(options.miss)),
-        lowest_(static_cast<float>(options.lowest)),
-        highest_(static_cast<float>(options.highest)),
+        min_log_odds_(static_cast<float>(options.min_log_odds)),
+        max_log_odds_(static_cast<float>(options.max_log_odds)),
         marks_(static_cast<std::size_t>(last - first + 1) * map.columns, 0) {}
 
   /// `mark` differs from scan to scan and is not 0.
@@ -132,14 +132,14 @@ class Band {
     if (r < first_ || r > last_ || marks(r)[c] == mark) return;
     marks(r)[c] = mark;
     float& cell = row(r)[c];
-    cell = std::min(cell + hit_, highest_);
+    cell = std::min(cell + hit_, max_log_odds_);
   }
   void clear(const Ray& ray, std::uint32_t mark) {
     traverse(ray, first_, last_, [&](std::int32_t r, std::int32_t from, std::int32_t to) {
       float* cells = row(r);
       std::uint32_t* marked = marks(r);
       for (std::int32_t c = from; c <= to; ++c) {
-        const float less = std::max(cells[c] - miss_, lowest_);
+        const float less = std::max(cells[c] - miss_, min_log_odds_);
         cells[c] = marked[c] == mark ? cells[c] : less;
         marked[c] = mark;
       }
@@ -148,7 +148,7 @@ class Band {
 
   GridMap& map_;
   std::int32_t first_, last_;
-  float hit_, miss_, lowest_, highest_;
+  float hit_, miss_, min_log_odds_, max_log_odds_;
   std::vector<std::uint32_t> marks_;
 };
 

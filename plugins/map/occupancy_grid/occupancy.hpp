@@ -20,18 +20,18 @@ struct PlacedScan {
 PlacedScan placed(const Cloud& cloud, const Pose& T_world_sensor);
 
 struct GridOptions {
-  double resolution = 0.05;  ///< edge of a cell [m]
-  double hit = 0.85;         ///< added to the log odds of a cell with a hit
-  double miss = 0.4;         ///< taken off the log odds of a cell that a ray passes
-  double lowest = -2;        ///< log odds stay from here
-  double highest = 3.5;      ///< to here
-  double max_range = 30;     ///< a ray that ends farther away only clears its way up to here [m]
-  std::size_t most_cells = 400'000'000;
+  double resolution = 0.05;   ///< edge of a cell [m]
+  double hit = 0.85;          ///< added to the log odds of a cell with a hit
+  double miss = 0.4;          ///< taken off the log odds of a cell that a ray passes
+  double min_log_odds = -2;   ///< log odds stay from here
+  double max_log_odds = 3.5;  ///< to here
+  double max_range = 30;      ///< a ray that ends farther away only clears its way up to here [m]
+  std::size_t max_cells = 400'000'000;
 
   std::string check() const {
-    return lowest < 0 && highest > 0
+    return min_log_odds < 0 && max_log_odds > 0
                ? ""
-               : "lowest must be below 0 and highest above 0, since 0 means not seen";
+               : "min_log_odds must be below 0 and max_log_odds above 0, since 0 means not seen";
   }
 };
 
@@ -41,7 +41,7 @@ using ParallelLoop =
 
 /// The map of all scans, taken in their order. In each scan a cell counts once: as hit if any ray
 /// ends in it, else as missed if any ray passes it. A cell that was seen is never 0. The same bytes
-/// for any number of threads. Without scans an empty map. Throws Error: more than `most_cells`, a
+/// for any number of threads. Without scans an empty map. Throws Error: more than `max_cells`, a
 /// place that is no number.
 GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options,
                   const ParallelLoop& parallel);

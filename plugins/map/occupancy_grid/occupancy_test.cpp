@@ -88,8 +88,12 @@ float at(const GridMap& map, double x, double y) {
   return map.log_odds[r * map.columns + c];
 }
 
-const GridOptions options{
-    .resolution = 0.1, .hit = 1, .miss = 0.5, .lowest = -2, .highest = 3, .max_range = 20};
+const GridOptions options{.resolution = 0.1,
+                          .hit = 1,
+                          .miss = 0.5,
+                          .min_log_odds = -2,
+                          .max_log_odds = 3,
+                          .max_range = 20};
 
 TEST(Occupancy, IsFreeUpToAHitOccupiedThereAndUnknownBehind) {
   const auto map = occupancy({{{0.05, 0.05}, {{2.05, 0.05}}}}, options, in_order);

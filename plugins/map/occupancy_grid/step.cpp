@@ -17,11 +17,11 @@ struct OccupancyGrid : WholeStep {
   using Params = GridOptions;
 
   static void describe(Declaration<OccupancyGrid>& is) {
-    is.name("map.occupancy_grid").version(1).source("[Zhang2023] 2");
-    is.summary("Draws the plane that 2-D scans saw: free and occupied cells, by casting all rays.");
+    is.name("map.occupancy_grid").version(1).source("[Moravec1985], [Hornung2013]");
+    is.summary("Builds an occupancy grid from 2-D scans by ray casting.");
     is.input("frames", &In::frames, "the scans");
-    is.input("trajectory", &In::trajectory, "the sensor's pose for each");
-    is.output("map", &Out::map, "log odds of each cell; 0: never seen");
+    is.input("trajectory", &In::trajectory, "the sensor's pose for each scan");
+    is.output("map", &Out::map, "log odds of each cell; 0: unknown");
     is.param("resolution", &Params::resolution)
         .unit("m")
         .range(0.001, 10)
@@ -31,17 +31,17 @@ struct OccupancyGrid : WholeStep {
         .doc("log odds that a scan adds to a cell in which a ray ends");
     is.param("miss", &Params::miss)
         .range(1e-3, 10)
-        .doc("log odds that a scan takes off a cell that rays only pass");
-    is.param("lowest", &Params::lowest)
+        .doc("log odds that a scan subtracts from a cell that rays only cross");
+    is.param("min_log_odds", &Params::min_log_odds)
         .range(-100, 0)
-        .doc("log odds do not fall below: how long a cell remembers that it was free");
-    is.param("highest", &Params::highest)
+        .doc("lower bound of a cell's log odds");
+    is.param("max_log_odds", &Params::max_log_odds)
         .range(0, 100)
-        .doc("log odds do not rise above: how long a cell remembers that it was occupied");
+        .doc("upper bound of a cell's log odds");
     is.param("max_range", &Params::max_range)
         .unit("m")
         .range(0.1, 1000)
-        .doc("a ray that ends farther away is no hit and only clears its way up to here");
+        .doc("rays that end farther away are no hits; they clear the cells up to this distance");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

@@ -11,7 +11,7 @@ namespace plumb {
 /// Pairs (i, j) such that b_j is the nearest to a_i among all b, and a_i the nearest to b_j among
 /// all a; in ascending order of i. `a` and `b` hold one vector of length `dimension` after the
 /// other. Distances are compared as sums of squared differences in double; of equally near vectors
-/// the one with the lower index is nearest. Vectors with a component that is no finite number, or
+/// the one with the lower index is nearest. Vectors with a component that is non-finite, or
 /// whose squared length fits no float, have no neighbours.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> mutual_nearest(std::span<const float> a,
                                                                     std::span<const float> b,

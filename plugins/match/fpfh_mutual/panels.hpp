@@ -20,7 +20,7 @@ struct PrincipalAxes {
   PrincipalAxes(std::span<const float> a, std::span<const float> b, std::size_t dimension);
 };
 
-/// Vectors in panels of `width` that lie near each other. Vectors that are no finite numbers are
+/// Vectors in panels of `width` that lie near each other. Vectors that are non-finite are
 /// left out; unused places are so far away that they are never near.
 class Panels {
  public:

@@ -36,11 +36,12 @@ struct MatchFpfhMutual : EdgeStep {
 
   static void describe(Declaration<MatchFpfhMutual>& is) {
     is.name("match.fpfh_mutual").version(1);
-    is.summary("Pairs key points of two segments that are each other's nearest in feature space.");
+    is.summary(
+        "Matches keypoints of two segments that are mutual nearest neighbours in feature space.");
     is.source("[Tang2024] 2.3.2, eq. 2");
-    is.input("edges", &In::edges, "which pairs of segments");
-    is.input("features", &In::features, "described key points");
-    is.output("matches", &Out::matches, "pairs of key points, whatever the poses");
+    is.input("edges", &In::edges, "pairs of segments");
+    is.input("features", &In::features, "keypoints with descriptors");
+    is.output("matches", &Out::matches, "pairs of keypoints, independent of the poses");
   }
 
   Out run(const In& in, const Params&, Context&) const {

@@ -3,7 +3,7 @@
 namespace plumb {
 namespace {
 
-/// Key points at x = 0, 1, 2, ... with one number each.
+/// Keypoints at x = 0, 1, 2, ... with one number each.
 Features features(std::vector<float> numbers, std::vector<std::uint8_t> at_border) {
   Features f;
   f.dimension = 1;

@@ -35,20 +35,21 @@ std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, 
 void ask(const Segment& of, const Segment& near, const Motion& near_from_of,
          const std::optional<std::uint32_t>& most, bool of_is_i, const NearestOptions& options,
          Matches& matches) {
-  const auto max = static_cast<float>(options.max);
+  const auto max = static_cast<float>(options.max_correspondence_distance);
   const float least_cosine =
-      options.reject_normals ? static_cast<float>(std::cos(*options.reject_normals)) : -2;
+      options.max_normal_angle ? static_cast<float>(std::cos(*options.max_normal_angle)) : -2;
   for (const auto k : near_box(of.cloud, near_from_of, near.box, max, most)) {
     const Eigen::Vector3f p = of.cloud.point(k);
     SearchTree::Neighbour nearest;
     if (!near.tree().nearest_within(near_from_of * p, max, nearest)) continue;
     ++matches.found;
     const Eigen::Vector3f q = near.cloud.point(nearest.index);
-    const Eigen::Vector3f normal = options.to_plane || options.reject_normals
+    const Eigen::Vector3f normal = options.to_plane || options.max_normal_angle
                                        ? near.cloud.normal(nearest.index)
                                        : Eigen::Vector3f::Zero();
     if (options.to_plane && normal.isZero()) continue;
-    if (options.reject_normals && (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine)
+    if (options.max_normal_angle &&
+        (near_from_of.r * of.cloud.normal(k)).dot(normal) < least_cosine)
       continue;
     matches.p.push_back(of_is_i ? p : q);
     matches.q.push_back(of_is_i ? q : p);
@@ -66,8 +67,10 @@ Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options) {
   Matches matches;
   matches.to_plane = options.to_plane;
-  if (!j.box.meets(moved(i.box, T_i_j.inverse()), static_cast<float>(options.max))) return matches;
-  auto each_way = options.most_points;
+  if (!j.box.meets(moved(i.box, T_i_j.inverse()),
+                   static_cast<float>(options.max_correspondence_distance)))
+    return matches;
+  auto each_way = options.max_points;
   if (each_way && options.both_ways) each_way = (*each_way + 1) / 2;
   ask(i, j, Motion(T_i_j.inverse()), each_way, true, options, matches);
   if (options.both_ways) ask(j, i, Motion(T_i_j), each_way, false, options, matches);

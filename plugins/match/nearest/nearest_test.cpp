@@ -125,9 +125,9 @@ TEST(Nearest, DropsPairsWhoseNormalsDifferInTheSameFrame) {
 NearestOptions both_ways(double max, bool to_plane = false,
                          std::optional<std::uint32_t> most = {}) {
   NearestOptions options;
-  options.max = max;
+  options.max_correspondence_distance = max;
   options.to_plane = to_plane;
-  options.most_points = most;
+  options.max_points = most;
   options.both_ways = true;
   return options;
 }
@@ -261,7 +261,7 @@ TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
     return "";
   };
   EXPECT_THAT(refusal("metric", std::string("plane")), testing::HasSubstr("estimate.normals"));
-  EXPECT_THAT(refusal("reject_normals", 0.5), testing::HasSubstr("estimate.normals"));
+  EXPECT_THAT(refusal("max_normal_angle", 0.5), testing::HasSubstr("estimate.normals"));
   EXPECT_EQ(refusal("metric", std::string("point")), "");
 }
 

@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include "nearest.hpp"
 #include "plumb/plugin/module.hpp"
@@ -19,42 +18,43 @@ struct Nearest : EdgeStep {
     Matches matches;
   };
   struct Params {
-    double max = 1;
+    double max_correspondence_distance = 1;
     Metric metric = Metric::point;
-    std::optional<std::uint32_t> most_points;
-    std::optional<double> reject_normals;
+    std::optional<std::uint32_t> max_points;
+    std::optional<double> max_normal_angle;
     bool both_ways = false;
   };
 
   static void describe(Declaration<Nearest>& is) {
     is.name("match.nearest").version(1);
-    is.summary("Pairs each point of one segment with the nearest point of the other.");
+    is.summary("Matches each point of one segment with the nearest point of the other.");
     is.source("[Tang2024] 2.3.2");
-    is.input("edges", &In::edges, "which segments to pair");
+    is.input("edges", &In::edges, "pairs of segments");
     is.input("segments", &In::segments,
-             "the clouds; with normals for 'metric: plane' and 'reject_normals'");
-    is.input("poses", &In::poses, "where the segments are at present");
+             "the clouds; with normals for 'metric: plane' and 'max_normal_angle'");
+    is.input("poses", &In::poses, "the current poses of the segments");
     is.scale(&In::scale);
-    is.output("matches", &Out::matches, "pairs no farther apart than 'max'");
-    is.param("max", &Params::max)
+    is.output("matches", &Out::matches,
+              "pairs no farther apart than 'max_correspondence_distance'");
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(0.001, 100)
-        .doc("farthest that a pair may be apart");
+        .doc("distance between the two points of a pair");
     is.choice("metric", &Params::metric,
-              {{"point", Metric::point, "the solver shortens the whole distance of a pair"},
-               {"plane", Metric::plane, "the solver shortens the part along q's normal"}})
-        .doc("what the solver is to make small");
-    is.param("most_points", &Params::most_points)
+              {{"point", Metric::point, "point-to-point distance"},
+               {"plane", Metric::plane, "point-to-plane distance, along q's normal"}})
+        .doc("the error that the solver minimises");
+    is.param("max_points", &Params::max_points)
         .range(1, 4e9)
-        .doc("so many of a segment's points near the other are asked, evenly spaced; none: all");
-    is.param("reject_normals", &Params::reject_normals)
+        .doc("points of a segment's overlapping part that are matched, evenly selected; none: all");
+    is.param("max_normal_angle", &Params::max_normal_angle)
         .unit("rad")
-        .range(0, std::numbers::pi)
-        .doc("pairs whose normals differ by more are dropped; none: normals are not looked at");
+        .range(0, 180 * deg)
+        .doc("pairs whose normals differ by more are dropped; none: normals are not compared");
     is.param("both_ways", &Params::both_ways)
         .doc(
-            "the second segment's points ask too, for the nearest of the first: what is one-sided "
-            "about nearest points cancels");
+            "match the second segment's points with the first's too, which cancels the bias of "
+            "one-sided matching");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -69,11 +69,12 @@ struct Nearest : EdgeStep {
     };
     if (params.metric == Metric::plane) demand_normals(j, "metric: plane");
     if (params.metric == Metric::plane && params.both_ways) demand_normals(i, "both_ways");
-    if (params.reject_normals)
-      demand_normals(i, "reject_normals"), demand_normals(j, "reject_normals");
-    Matches matches = nearest_pairs(i, j, in.poses.T_i_j,
-                                    {params.max, params.metric == Metric::plane, params.most_points,
-                                     params.reject_normals, params.both_ways});
+    if (params.max_normal_angle)
+      demand_normals(i, "max_normal_angle"), demand_normals(j, "max_normal_angle");
+    Matches matches =
+        nearest_pairs(i, j, in.poses.T_i_j,
+                      {params.max_correspondence_distance, params.metric == Metric::plane,
+                       params.max_points, params.max_normal_angle, params.both_ways});
     context.count("pairs dropped for their normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};

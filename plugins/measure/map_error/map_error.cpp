@@ -81,7 +81,7 @@ PlanarMotion planar_alignment(const PosePairs& pairs) {
 }
 
 MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
-                   const PlanarMotion& T_plan_map, float threshold, double near,
+                   const PlanarMotion& T_plan_map, float threshold, double max_wall_distance,
                    const ParallelLoop& parallel) {
   std::vector<Eigen::Vector2d> cells;
   for (std::size_t r = 0; r < map.rows; ++r)
@@ -106,11 +106,12 @@ MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
   const auto n = static_cast<double>(cells.size());
   std::ranges::sort(distances);
   for (const double d : distances)
-    error.mean += d / n, error.rms += d * d / n, error.accuracy += d <= near ? 1 / n : 0;
+    error.mean += d / n, error.rms += d * d / n,
+        error.accuracy += d <= max_wall_distance ? 1 / n : 0;
   error.rms = std::sqrt(error.rms);
   error.largest = distances.back();
   error.percentile_99 = distances[static_cast<std::size_t>(std::ceil(0.99 * n)) - 1];
-  error.coverage = covered(walls, Buckets(cells, near), map.resolution);
+  error.coverage = covered(walls, Buckets(cells, max_wall_distance), map.resolution);
   return error;
 }
 

@@ -14,7 +14,7 @@ struct PlanarMotion {
   Eigen::Vector2d operator*(const Eigen::Vector2d& p) const;
 };
 
-/// Lays the estimated positions onto the true ones, x and y only, with the least sum of squares;
+/// Aligns the estimated positions with the true ones, x and y only, with the least sum of squares;
 /// where they all lie at one place (within a millimetre) the mean difference of the headings gives
 /// the angle. The identity for no pairs.
 PlanarMotion planar_alignment(const PosePairs& pairs);
@@ -23,8 +23,9 @@ struct MapError {
   std::size_t occupied = 0;  ///< cells
   double mean = 0, rms = 0, largest = 0,
          percentile_99 = 0;  ///< distance of an occupied cell's centre to the nearest wall [m]
-  double accuracy = 0;       ///< share of occupied cells nearer than `near`
-  double coverage = 0;  ///< share of the walls' length that has an occupied cell nearer than `near`
+  double accuracy = 0;       ///< share of occupied cells nearer than `max_wall_distance`
+  double coverage =
+      0;  ///< share of the walls' length that has an occupied cell nearer than `max_wall_distance`
 };
 
 /// Runs body(k) for k = 0 .. n-1, in any order.
@@ -34,7 +35,7 @@ using ParallelLoop =
 /// Compares the cells whose log odds are above `threshold`, moved by `T_plan_map`, with the walls.
 /// NaN for no such cell.
 MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
-                   const PlanarMotion& T_plan_map, float threshold, double near,
+                   const PlanarMotion& T_plan_map, float threshold, double max_wall_distance,
                    const ParallelLoop& parallel);
 
 }  // namespace plumb

@@ -113,7 +113,7 @@ TEST(PlanarAlignment, FindsTheMotionOfAPathOfALineAndOfAPlace) {
   }
 }
 
-TEST(MeasureMapError, LaysTheMapOntoThePlanByTheTrajectory) {
+TEST(MeasureMapError, AlignsTheMapWithThePlanByTheTrajectory) {
   const io::TestFolder folder;
   const Pose T_plan_map(exp_rotation({0, 0, 0.7}), {100, 50, 0});
   Trajectory truth = walk();
@@ -159,7 +159,7 @@ TEST(MeasureMapError, RefusesATruthThatDoesNotFitAndAPlanThatIsNone) {
       .set("plan", plan)
       .set("truth", folder.write("t.tum", "500 0 0 0 0 0 0 1\n").string());
   EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }),
-              HasSubstr("no trajectory to lay onto it"));
+              HasSubstr("no trajectory to align with it"));
   step.with("trajectory", walk());
   EXPECT_THAT(io::refusal([&] { step.run<Metrics>("metrics", context); }),
               HasSubstr("no pose has the stamp"));

@@ -19,16 +19,16 @@ struct MeasureMapError : WholeStep {
     std::optional<std::filesystem::path> plan, truth;
     double tolerance = 2e-3;
     double occupied = 0.65;
-    double near = 0.1;
+    double max_wall_distance = 0.1;
   };
 
   static void describe(Declaration<MeasureMapError>& is) {
     is.name("measure.map_error").version(1).source("[Zhang2023] 3");
-    is.summary("Measures how far the walls of a map are from those of the true floor plan.");
+    is.summary("Measures the distance of a map's walls from those of the true floor plan.");
     is.input("map", &In::map, "the map");
     is.optional_input(
         "trajectory", &In::trajectory,
-        "the poses that the map was made with; with 'truth' they say how it lies on the plan");
+        "the poses from which the map was made; with 'truth' they align it with the plan");
     is.output("metrics", &Out::metrics,
               "mean, rms, largest, percentile_99, accuracy, coverage, occupied");
     is.param("plan", &Params::plan)
@@ -40,14 +40,14 @@ struct MeasureMapError : WholeStep {
     is.param("tolerance", &Params::tolerance)
         .unit("s")
         .range(1e-9, 10)
-        .doc("poses whose stamps differ by less belong together");
+        .doc("poses whose stamps differ by less are associated");
     is.param("occupied", &Params::occupied)
         .range(0.5, 0.999)
         .doc("probability above which a cell is a wall");
-    is.param("near", &Params::near)
+    is.param("max_wall_distance", &Params::max_wall_distance)
         .unit("m")
         .range(0.001, 10)
-        .doc("a cell so near to a wall is right, for accuracy and coverage");
+        .doc("a cell at most this far from a wall is correct, for accuracy and coverage");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -61,20 +61,21 @@ struct MeasureMapError : WholeStep {
     if (params.truth) {
       if (!in.trajectory)
         throw Error(
-            "measure.map_error has a truth but no trajectory to lay onto it: wire 'trajectory' or "
+            "measure.map_error has a truth but no trajectory to align with it: wire 'trajectory' "
+            "or "
             "set 'truth: none'");
       const PosePairs pairs =
           pair_by_stamp(*in.trajectory, read_tum(*params.truth, StampOrder::any), params.tolerance);
       if (pairs.size() == 0)
         throw Error(params.truth->string() +
                     ": no pose has the stamp of a pose of the trajectory, so the map cannot be "
-                    "laid onto the plan; "
+                    "aligned with the plan; "
                     "look whether both count the same seconds");
       T_plan_map = planar_alignment(pairs);
     }
     const auto threshold = static_cast<float>(std::log(params.occupied / (1 - params.occupied)));
     const MapError error =
-        map_error(*in.map, walls, T_plan_map, threshold, params.near,
+        map_error(*in.map, walls, T_plan_map, threshold, params.max_wall_distance,
                   [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     if (error.occupied == 0) {
       out.metrics.notes.push_back("the map has no occupied cell, so it has no error");

@@ -5,20 +5,22 @@
 
 namespace plumb {
 
-IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i, double cap,
-                         std::optional<std::uint32_t> most_points) {
+IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
+                         double max_correspondence_distance,
+                         std::optional<std::uint32_t> max_points) {
   IndexPairs pairs;
   if (i.cloud.empty() || j.cloud.empty() ||
-      !moved(i.box, T_j_i).meets(j.box, static_cast<float>(cap)))
+      !moved(i.box, T_j_i).meets(j.box, static_cast<float>(max_correspondence_distance)))
     return pairs;
   const std::size_t n = i.cloud.size();
   const std::size_t stride =
-      most_points && n > *most_points ? (n + *most_points - 1) / *most_points : 1;
+      max_points && n > *max_points ? (n + *max_points - 1) / *max_points : 1;
   const Motion motion(T_j_i);
   const SearchTree& tree = j.tree();
   for (std::size_t k = 0; k < n; k += stride) {
     SearchTree::Neighbour nearest;
-    if (tree.nearest_within(motion * i.cloud.point(k), static_cast<float>(cap), nearest))
+    if (tree.nearest_within(motion * i.cloud.point(k),
+                            static_cast<float>(max_correspondence_distance), nearest))
       pairs.emplace_back(static_cast<std::uint32_t>(k), nearest.index);
   }
   return pairs;

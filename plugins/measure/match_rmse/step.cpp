@@ -20,30 +20,33 @@ struct MatchRmse : WholeStep {
     Metrics metrics;
   };
   struct Params {
-    double cap = 0.5;
-    std::optional<std::uint32_t> most_points;
+    double max_correspondence_distance = 0.5;
+    std::optional<std::uint32_t> max_points;
   };
 
   static void describe(Declaration<MatchRmse>& is) {
     is.name("measure.match_rmse")
         .version(1)
         .summary(
-            "Measures how far the clouds of neighbouring segments lie apart, averaged over all "
-            "edges.")
+            "Measures the RMSE of nearest-point matches between neighbouring segments, averaged "
+            "over all edges.")
         .source("[Tang2024] eq. 3, 3.3");
-    is.input("edges", &In::edges, "which segments are compared");
-    is.input("segments", &In::segments, "their clouds, thinned as you want them compared");
-    is.input("poses", &In::poses, "where the segments are; a number for each, by its label");
-    is.optional_input(
-        "pairs", &In::pairs,
-        "poses under which the pairs are found, once for all; without, each has its own pairs");
+    is.input("edges", &In::edges, "pairs of segments that are compared");
+    is.input("segments", &In::segments, "their clouds, downsampled as they are to be compared");
+    is.input("poses", &In::poses, "poses of the segments; one number for each, by its label");
+    is.optional_input("pairs", &In::pairs,
+                      "poses under which the pairs are found, once for all; without it, each of "
+                      "'poses' has its own pairs");
     is.scale(&In::scale);
     is.output("metrics", &Out::metrics,
               "a number for each of 'poses', and under the last of them a record for each edge");
-    is.param("cap", &Params::cap).unit("m").range(1e-3, 100).doc("farther points are no pair");
-    is.param("most_points", &Params::most_points)
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
+        .unit("m")
+        .range(1e-3, 100)
+        .doc("distance between the two points of a pair");
+    is.param("max_points", &Params::max_points)
         .range(1, 1e9)
-        .doc("ask for at most so many points of an edge's first segment, evenly chosen; none: all");
+        .doc("points of an edge's first segment that are matched, evenly selected; none: all");
   }
 
   /// What one edge gives: for each labelled poses the rmse (NaN: no pairs), and for the last the
@@ -58,16 +61,17 @@ struct MatchRmse : WholeStep {
     Result result;
     IndexPairs pairs;
     if (in.pairs)
-      pairs =
-          nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i), params.cap, params.most_points);
+      pairs = nearest_pairs(*i, *j, in.pairs->relative(edge.j, edge.i),
+                            params.max_correspondence_distance, params.max_points);
     for (const auto& [label, poses] : in.poses) {
       const Pose T_j_i = poses->relative(edge.j, edge.i);
-      if (!in.pairs) pairs = nearest_pairs(*i, *j, T_j_i, params.cap, params.most_points);
+      if (!in.pairs)
+        pairs = nearest_pairs(*i, *j, T_j_i, params.max_correspondence_distance, params.max_points);
       result.rmse.push_back(rmse_of(pairs, *i, *j, T_j_i));
     }
     const std::size_t n = i->cloud.size();
     result.asked = static_cast<std::uint32_t>(
-        params.most_points ? std::min<std::size_t>(n, *params.most_points) : n);
+        params.max_points ? std::min<std::size_t>(n, *params.max_points) : n);
     result.found = static_cast<std::uint32_t>(pairs.size());
     return result;
   }
@@ -115,7 +119,7 @@ struct MatchRmse : WholeStep {
     if (without)
       out.metrics.notes.push_back(
           std::to_string(without) + " of " + std::to_string(edges.size()) +
-          " edges have no points nearer than the cap and are not in the mean");
+          " edges have no pairs within max_correspondence_distance and are not in the mean");
     return out;
   }
 };

@@ -18,12 +18,13 @@ struct MeasureRelations : WholeStep {
 
   static void describe(Declaration<MeasureRelations>& is) {
     is.name("measure.relations").version(1).source("[Kuemmerle2009]");
-    is.summary("Measures trajectories against true relative poses between moments.");
+    is.summary(
+        "Measures the error of trajectories against true relative poses between pairs of times.");
     is.input("trajectories", &In::trajectories,
              "any number of trajectories; numbers are named after the label");
     is.output("metrics", &Out::metrics,
-              "for each trajectory translation and rotation error, absolute and squared, mean and "
-              "deviation");
+              "for each trajectory the translation and rotation error, absolute and squared, mean "
+              "and standard deviation");
     is.param("relations", &Params::relations)
         .doc(
             "file with lines 'from to x y z roll pitch yaw' [s, m, rad]; none: a note, and no "
@@ -31,7 +32,7 @@ struct MeasureRelations : WholeStep {
     is.param("tolerance", &Params::tolerance)
         .unit("s")
         .range(0, 1000)
-        .doc("a moment belongs to the frame nearest in time if that is at most so far away");
+        .doc("a time is associated with the nearest frame if that is at most this far away");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

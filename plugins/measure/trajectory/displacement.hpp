@@ -6,7 +6,7 @@
 namespace plumb {
 
 /// Mean absolute error [m] of the positions along the truth's x and y when the first pair's poses
-/// are laid on each other: what a robot is off that starts at a known place. NaN for no pairs.
+/// are aligned: what a robot is off that starts at a known place. NaN for no pairs.
 /// Source: [Zhang2023] 3, "mean displacement error".
 Eigen::Vector2d mean_displacement(const PosePairs& pairs);
 

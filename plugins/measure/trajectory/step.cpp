@@ -18,13 +18,14 @@ struct MeasureTrajectory : WholeStep {
   struct Params {
     std::optional<std::filesystem::path> truth;
     double tolerance = 2e-3;
-    double over = 10;
+    double delta = 10;
   };
 
   static void describe(Declaration<MeasureTrajectory>& is) {
     is.name("measure.trajectory")
         .version(2)
-        .summary("Measures the absolute and relative error of trajectories against a true one.")
+        .summary(
+            "Measures the absolute and relative pose errors of trajectories against a true one.")
         .source("Sturm et al. 2012");
     is.input("trajectories", &In::trajectories,
              "any number of trajectories; numbers are named after the label");
@@ -36,11 +37,11 @@ struct MeasureTrajectory : WholeStep {
     is.param("tolerance", &Params::tolerance)
         .unit("s")
         .range(1e-9, 10)
-        .doc("poses whose stamps differ by less belong together");
-    is.param("over", &Params::over)
+        .doc("poses whose stamps differ by less are associated");
+    is.param("delta", &Params::delta)
         .unit("m")
         .range(1e-3, 1e6)
-        .doc("length of true path over which the relative error is taken");
+        .doc("path length over which the relative pose error is taken");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -62,7 +63,7 @@ struct MeasureTrajectory : WholeStep {
         continue;
       }
       const auto absolute = absolute_error(pairs);
-      const auto relative = relative_error(pairs, params.over);
+      const auto relative = relative_error(pairs, params.delta);
       const auto displacement = mean_displacement(pairs);
       out.metrics.add(of + "ate", absolute.rmse, "m")
           .add(of + "ate_max", absolute.max, "m")

@@ -32,7 +32,10 @@ TEST(DistanceGate, MeasuresUnderThePresentPoses) {
 
 TEST(DistanceGate, OpensForLoopsByTheirCentroidDistance) {
   StepRun step(*plumb_module());
-  step.with("matches", pairs_apart(10)).at("poses", Pose()).set("max", 1.0).set("loop_margin", 2.0);
+  step.with("matches", pairs_apart(10))
+      .at("poses", Pose())
+      .set("max_correspondence_distance", 1.0)
+      .set("loop_margin", 2.0);
   TestContext context;
   step.edge("edges", {0, 5, EdgeKind::loop, 0.5f, 4.0f});
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 7u);

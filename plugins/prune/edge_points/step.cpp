@@ -15,10 +15,10 @@ struct EdgePoints : EdgeStep {
 
   static void describe(Declaration<EdgePoints>& is) {
     is.name("prune.edge_points").version(1);
-    is.summary("Drops pairs with a point at the border of its cloud.");
+    is.summary("Removes pairs with a point at the border of its cloud.");
     is.source("[Tang2024] 2.3.2, [Xiong2018]");
     is.input("matches", &In::matches, "pairs with border marks");
-    is.output("matches", &Out::matches, "those with both points inside");
+    is.output("matches", &Out::matches, "the pairs with both points inside");
   }
 
   Out run(const In& in, const Params&, Context& context) const {

@@ -74,7 +74,7 @@ Clusters kmeans(const std::vector<Vector6d>& vectors, std::uint32_t k, Random ra
 
 std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
                                         const std::vector<Vector6d>& vectors, Keep keep,
-                                        double grain, std::uint32_t fewest) {
+                                        double min_spread, std::uint32_t min_pairs) {
   std::vector<double> counts(clusters.centres.size(), 0), spreads(clusters.centres.size(), 0);
   for (std::size_t n = 0; n < vectors.size(); ++n) {
     counts[clusters.of[n]] += 1;
@@ -85,8 +85,9 @@ std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
   std::tuple<double, double, double> best_worth(-1, 0, 0);
   for (std::uint32_t c = 0; c < counts.size(); ++c) {
     const double spread = counts[c] > 0 ? std::sqrt(spreads[c] / counts[c]) : 0;
-    const double density =
-        keep == Keep::densest && counts[c] >= fewest ? counts[c] / std::pow(spread + grain, 2) : 0;
+    const double density = keep == Keep::densest && counts[c] >= min_pairs
+                               ? counts[c] / std::pow(spread + min_spread, 2)
+                               : 0;
     const std::tuple worth(density, counts[c], -spread);
     if (worth > best_worth) best_worth = worth, best = c;
   }

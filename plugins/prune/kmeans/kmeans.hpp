@@ -24,14 +24,15 @@ Clusters kmeans(const std::vector<Vector6d>& vectors, std::uint32_t k, Random ra
 /// How a cluster's worth is told.
 enum class Keep {
   largest,  ///< by the number of its vectors; of equals the tighter one
-  densest,  ///< by number / (spread + grain)^2, the spread being the rms distance to its centre
+  densest,  ///< by number / (spread + min_spread)^2, the spread being the rms distance to its
+            ///< centre
 };
 
 /// Indices of the vectors in the best cluster, in order; of equally good ones the lower. None for
-/// no vectors. `grain` [the vectors' unit] is the spread below which clusters count as equally
-/// tight. For `densest`, clusters of fewer than `fewest` vectors do not count, unless all are.
+/// no vectors. `min_spread` [the vectors' unit] is the spread below which clusters count as equally
+/// tight. For `densest`, clusters of fewer than `min_pairs` vectors do not count, unless all are.
 std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
                                         const std::vector<Vector6d>& vectors, Keep keep,
-                                        double grain, std::uint32_t fewest);
+                                        double min_spread, std::uint32_t min_pairs);
 
 }  // namespace plumb

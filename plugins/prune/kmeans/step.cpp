@@ -21,49 +21,48 @@ struct KMeans : EdgeStep {
     Vector vector = Vector::displacement;
     double lever = 2;
     std::uint32_t pairs_per_cluster = 8;
-    std::uint32_t most_clusters = 30;
+    std::uint32_t max_clusters = 30;
     Keep keep = Keep::largest;
-    double grain = 0.3;
-    std::uint32_t fewest = 6;
+    double min_spread = 0.3;
+    std::uint32_t min_pairs = 6;
   };
 
   static void describe(Declaration<KMeans>& is) {
     is.name("prune.kmeans").version(1);
-    is.summary("Keeps the largest group of pairs that imply the same motion.");
+    is.summary("Clusters the pairs by the motion that they imply and keeps the largest cluster.");
     is.source("[Tang2024] 2.3.2, [Xiong2018]");
-    is.input("matches", &In::matches, "the pairs to look at");
-    is.input("poses", &In::poses, "where the segments are at present");
+    is.input("matches", &In::matches, "the pairs to cluster");
+    is.input("poses", &In::poses, "the current poses of the segments");
     is.output("matches", &Out::matches, "the pairs of one cluster");
     is.choice("vector", &Params::vector,
-              {{"displacement", Vector::displacement, "p - q under the present poses"},
-               {"motion", Vector::motion, "that, and the rotation between the points' normals"}})
-        .doc("what a pair says of the motion");
+              {{"displacement", Vector::displacement, "p - q under the current poses"},
+               {"motion", Vector::motion,
+                "the displacement, and the rotation between the points' normals"}})
+        .doc("the vector that a pair is clustered by");
     is.param("lever", &Params::lever)
         .unit("m")
         .range(0, 100)
         .doc("displacement that weighs as much as a rotation by 1 rad; for 'vector: motion'");
     is.param("pairs_per_cluster", &Params::pairs_per_cluster)
         .range(1, 1e6)
-        .doc("there is one cluster, and at least two, for so many pairs");
-    is.param("most_clusters", &Params::most_clusters)
-        .range(2, 1000)
-        .doc("but never more than these");
+        .doc("there is one cluster for this many pairs, and at least two");
+    is.param("max_clusters", &Params::max_clusters).range(2, 1000).doc("number of clusters");
     is.choice("keep", &Params::keep,
               {{"largest", Keep::largest, "the cluster with the most pairs, as in the paper"},
                {"densest", Keep::densest, "the cluster with the most pairs for its spread"}})
         .doc("which cluster is kept");
-    is.param("grain", &Params::grain)
+    is.param("min_spread", &Params::min_spread)
         .unit("m")
         .range(0.001, 100)
         .doc("spread below which clusters count as equally tight; for 'keep: densest'");
-    is.param("fewest", &Params::fewest)
+    is.param("min_pairs", &Params::min_pairs)
         .range(2, 1e6)
-        .doc("fewer pairs than this are kept as they are: they show no groups");
+        .doc("fewer pairs than this are kept as they are: too few to cluster");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Matches& matches = *in.matches;
-    if (matches.size() < params.fewest) {
+    if (matches.size() < params.min_pairs) {
       if (matches.size() > 0) context.count("edges with too few pairs to group, kept whole", 1);
       return {matches};
     }
@@ -72,8 +71,9 @@ struct KMeans : EdgeStep {
                              : motions(matches, in.poses.T_i_j, params.lever);
     const auto wanted = static_cast<std::uint32_t>(matches.size()) / params.pairs_per_cluster;
     const auto clusters =
-        kmeans(vectors, std::clamp(wanted, 2u, params.most_clusters), Random(context.seed()));
-    const auto kept = best_cluster(clusters, vectors, params.keep, params.grain, params.fewest);
+        kmeans(vectors, std::clamp(wanted, 2u, params.max_clusters), Random(context.seed()));
+    const auto kept =
+        best_cluster(clusters, vectors, params.keep, params.min_spread, params.min_pairs);
     context.count("pairs dropped", matches.size() - kept.size());
     return {select(matches, kept)};
   }

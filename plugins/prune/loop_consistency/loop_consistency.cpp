@@ -67,7 +67,8 @@ class Judge {
   }
 
   bool near(const Loop& a, const Loop& b) const {
-    return path(a.i, b.i) <= options_.neighbourhood && path(a.j, b.j) <= options_.neighbourhood;
+    return path(a.i, b.i) <= options_.max_path_separation &&
+           path(a.j, b.j) <= options_.max_path_separation;
   }
 
   /// e of the cycle i_a -> j_a -> j_b -> i_b -> i_a is the identity where both are right and the
@@ -102,7 +103,7 @@ class Judge {
     for (std::size_t x = 0; x < order.size(); ++x)
       for (std::size_t y = x + 1; y < order.size(); ++y) {
         const Loop &a = loops_[order[x]], &b = loops_[order[y]];
-        if (path(a.i, b.i) > options_.neighbourhood) break;
+        if (path(a.i, b.i) > options_.max_path_separation) break;
         if (!near(a, b)) continue;
         if (const auto told = agree(a, b)) all.push_back({order[x], order[y], *told});
       }
@@ -138,7 +139,7 @@ class Judge {
     for (std::uint32_t k = 0; k < loops_.size(); ++k)
       if (verdicts_[k] == LoopVerdict::kept && agreed[k] == 0 &&
           options_.drift.position(path(loops_[k].i, loops_[k].j), extent(loops_[k])) >
-              options_.max_alone_position)
+              options_.max_unconfirmed_sigma)
         verdicts_[k] = LoopVerdict::alone;
   }
 
@@ -152,11 +153,11 @@ class Judge {
 }  // namespace
 
 double DriftModel::rotation(double path) const {
-  return rotation_per_metre * std::sqrt(path * std::min(path, memory));
+  return rotation_per_metre * std::sqrt(path * std::min(path, correlation_length));
 }
 
 double DriftModel::position(double path, double distance) const {
-  return std::hypot(translation_per_metre * std::sqrt(path * std::min(path, memory)),
+  return std::hypot(translation_per_metre * std::sqrt(path * std::min(path, correlation_length)),
                     rotation(path) * distance / std::sqrt(3.0));
 }
 

@@ -8,11 +8,11 @@
 namespace plumb {
 
 /// How far the poses may have drifted between two segments with path L between them. Errors are
-/// slow: over `memory` they add up in proportion to the path, beyond it with its root.
+/// slow: over `correlation_length` they add up in proportion to the path, beyond it with its root.
 struct DriftModel {
-  double translation_per_metre = 0.01;  ///< [m/m]
-  double rotation_per_metre = 0.0005;   ///< [rad/m]
-  double memory = 100;                  ///< [m]
+  double translation_per_metre = 0.01;     ///< [m/m]
+  double rotation_per_metre = 0.03 * deg;  ///< [rad/m]
+  double correlation_length = 100;         ///< [m]
 
   /// Standard deviations of the rotation [rad] and of the position [m] over `path` [m], the ends
   /// `distance` [m] apart.
@@ -34,10 +34,10 @@ struct ConsistencyOptions {
   double max_deviation = 3.5;  ///< standard deviations within which things agree
   double min_agreement =
       0.6;  ///< share of the other loops, of those that can tell, that must agree with a loop
-  double neighbourhood =
+  double max_path_separation =
       150;  ///< [m] path at either end within which two loops can tell something of each other
-  double max_alone_position = 3;  ///< [m] a loop that no other can confirm is kept where the
-                                  ///< drift's deviation is at most this
+  double max_unconfirmed_sigma = 3;  ///< [m] a loop that no other can confirm is kept where the
+                                     ///< drift's deviation is at most this
 };
 
 /// A verdict for each loop. First those that no drift within `max_deviation` explains are dropped.

@@ -158,7 +158,7 @@ TEST(LoopConsistency, DropsALoneLoopWhereTheDriftMayBeLarge) {
   const std::vector<Loop> one{right_loop(drive, 4, 4 + Drive::lap, random)};
   ConsistencyOptions options;
   EXPECT_THAT(judge_loops(one, drive.drifted, options), testing::ElementsAre(LoopVerdict::alone));
-  options.max_alone_position = 50;
+  options.max_unconfirmed_sigma = 50;
   EXPECT_THAT(judge_loops(one, drive.drifted, options), testing::ElementsAre(LoopVerdict::kept));
 }
 
@@ -192,7 +192,7 @@ TEST(LoopConsistency, LetsLoopsOfOtherPlacesSayNothing) {
   for (std::uint32_t k = 0; k < 4; ++k)
     loops.push_back(right_loop(drive, k, k + Drive::lap, random));
   ConsistencyOptions options;
-  options.neighbourhood = 60;
+  options.max_path_separation = 60;
   const auto before = judge_loops(loops, drive.drifted, options);
   Loop wrong = right_loop(drive, 30, 30 + Drive::lap, random);
   wrong.T_i_j.translation += Eigen::Vector3d(0, 5, 0);
@@ -239,7 +239,8 @@ TEST(LoopConsistency, HasNoLengthOfItsOwn) {
   for (auto& loop : loops) loop.T_i_j.translation *= 10, loop.sigma_translation *= 10;
   ConsistencyOptions options;
   options.drift.rotation_per_metre /= 10;
-  options.drift.memory *= 10, options.neighbourhood *= 10, options.max_alone_position *= 10;
+  options.drift.correlation_length *= 10, options.max_path_separation *= 10,
+      options.max_unconfirmed_sigma *= 10;
   EXPECT_EQ(judge_loops(loops, large, options), verdicts);
 }
 
@@ -291,19 +292,19 @@ TEST(PruneLoopConsistency, GivesTheKeptLoopsAndAReasonForEach) {
   auto all = registered(loops, 96);
   all.registrations[17].accepted = false;
   TestContext context;
-  const auto relations = pruning(all, drive.drifted).run<Relations>("relations", context);
+  const auto constraints = pruning(all, drive.drifted).run<Constraints>("constraints", context);
   EXPECT_EQ(context.counts["loops kept"], loops.size() - 3);
   EXPECT_EQ(context.counts["loops dropped: no drift explains them"], 1u);
   EXPECT_EQ(context.counts["loops dropped: other loops contradict them"], 1u);
   EXPECT_EQ(context.counts["loops dropped: alone and far"], 0u);
-  ASSERT_EQ(relations.relative.size(), loops.size() - 3);
-  EXPECT_FALSE(relations.planar);
+  ASSERT_EQ(constraints.relative.size(), loops.size() - 3);
+  EXPECT_FALSE(constraints.planar);
   std::size_t at = 0;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (k == 3 || k == 11 || k == 17) continue;
-    EXPECT_EQ(relations.relative[at].i, loops[k].i);
-    EXPECT_EQ(relations.relative[at].j, loops[k].j);
-    EXPECT_EQ(relations.relative[at].T_i_j.translation, loops[k].T_i_j.translation);
+    EXPECT_EQ(constraints.relative[at].i, loops[k].i);
+    EXPECT_EQ(constraints.relative[at].j, loops[k].j);
+    EXPECT_EQ(constraints.relative[at].T_i_j.translation, loops[k].T_i_j.translation);
     ++at;
   }
   const auto metrics = pruning(all, drive.drifted).run<Metrics>("metrics", context);
@@ -334,9 +335,9 @@ TEST(PruneLoopConsistency, AddsItsOwnDeviationsToThoseOfTheRegistration) {
   TestContext context;
   auto step = pruning(all, drive.drifted);
   step.set("translation_sigma", 0.2).set("rotation_sigma", 0.01);
-  const auto relations = step.run<Relations>("relations", context);
-  ASSERT_FALSE(relations.relative.empty());
-  const Matrix6d& information = relations.relative[0].information;
+  const auto constraints = step.run<Constraints>("constraints", context);
+  ASSERT_FALSE(constraints.relative.empty());
+  const Matrix6d& information = constraints.relative[0].information;
   const Vector6d before = all.registrations[0].information.diagonal();
   for (int a = 0; a < 6; ++a) {
     const double sigma = a < 3 ? 0.2 : 0.01, expected = 1 / (1 / before[a] + sigma * sigma);
@@ -353,19 +354,19 @@ TEST(PruneLoopConsistency, LeavesUnknownWhatTheRegistrationDoesNotKnow) {
   for (auto& r : all.registrations) r.information(0, 0) = 0;  // along a corridor
   all.registrations[0].information.setZero();
   TestContext context;
-  const auto relations = pruning(all, drive.drifted).run<Relations>("relations", context);
-  ASSERT_EQ(relations.relative.size(), all.registrations.size());
-  EXPECT_TRUE(relations.relative[0].information.isZero(0));
-  for (std::size_t k = 1; k < relations.relative.size(); ++k) {
-    EXPECT_LT(relations.relative[k].information(0, 0), 1e-3);
-    EXPECT_GT(relations.relative[k].information(1, 1), 10);
+  const auto constraints = pruning(all, drive.drifted).run<Constraints>("constraints", context);
+  ASSERT_EQ(constraints.relative.size(), all.registrations.size());
+  EXPECT_TRUE(constraints.relative[0].information.isZero(0));
+  for (std::size_t k = 1; k < constraints.relative.size(); ++k) {
+    EXPECT_LT(constraints.relative[k].information(0, 0), 1e-3);
+    EXPECT_GT(constraints.relative[k].information(1, 1), 10);
   }
 }
 
 TEST(PruneLoopConsistency, KeepsNothingOfNoLoops) {
   TestContext context;
   EXPECT_TRUE(pruning(registered({}, 96), two_laps(1).drifted)
-                  .run<Relations>("relations", context)
+                  .run<Constraints>("constraints", context)
                   .relative.empty());
   EXPECT_EQ(context.counts["loops kept"], 0u);
 }
@@ -391,7 +392,8 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
   few.T_world_segment.resize(40);
   TestContext context;
   try {
-    pruning(registered(right_loops(two_laps(1), 1), 96), few).run<Relations>("relations", context);
+    pruning(registered(right_loops(two_laps(1), 1), 96), few)
+        .run<Constraints>("constraints", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
     EXPECT_STREQ(

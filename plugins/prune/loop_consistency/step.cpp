@@ -30,71 +30,69 @@ struct PruneLoopConsistency : WholeStep {
     One<Metrics> scale;
   };
   struct Out {
-    Relations relations;
+    Constraints constraints;
     Metrics metrics;
   };
   struct Params {
     double translation_per_metre = 0.01;
-    double rotation_per_metre = 0.0005;
-    double memory = 100;
+    double rotation_per_metre = 0.03 * deg;
+    double correlation_length = 100;
     double max_deviation = 3.5;
     double min_agreement = 0.6;
-    double neighbourhood = 150;
-    double max_alone_position = 3;
+    double max_path_separation = 150;
+    double max_unconfirmed_sigma = 3;
     double translation_sigma = 0.1;
-    double rotation_sigma = 0.003;
+    double rotation_sigma = 0.2 * deg;
   };
 
   static void describe(Declaration<PruneLoopConsistency>& is) {
     is.name("prune.loop_consistency").version(1);
-    is.summary(
-        "Keeps the loops that agree with each other and with what the poses can have drifted.");
+    is.summary("Keeps the loops that are consistent with each other and with the expected drift.");
     is.source("[Mangelson2018] PCM; covariances that grow with the path are ours");
-    is.input("registrations", &In::registrations,
-             "how segments lie to each other, one per loop edge");
-    is.input("poses", &In::poses, "where the segments are, drifted but locally good");
+    is.input("registrations", &In::registrations, "registrations of segments, one per loop edge");
+    is.input("poses", &In::poses, "poses of the segments, with drift but locally accurate");
     is.scale(&In::scale);
-    is.output("relations", &Out::relations, "the loops that are kept, with their information");
-    is.output("metrics", &Out::metrics, "how many are kept, and each loop's reason");
+    is.output("constraints", &Out::constraints, "the kept loops, with their information");
+    is.output("metrics", &Out::metrics, "number of loops kept, and each loop's reason");
     is.param("translation_per_metre", &Params::translation_per_metre)
         .unit("%")
         .range(1e-6, 10)
-        .doc("drift of the poses: standard deviation of the translation, of the path");
+        .doc("drift: standard deviation of the translation, as a share of the path");
     is.param("rotation_per_metre", &Params::rotation_per_metre)
         .unit("rad/m")
-        .range(1e-8, 10)
-        .doc("drift of the poses: standard deviation of the rotation for each metre of path");
-    is.param("memory", &Params::memory)
+        .range(1e-6 * deg, 360 * deg)
+        .doc("drift: standard deviation of the rotation for each metre of path");
+    is.param("correlation_length", &Params::correlation_length)
         .unit("m")
         .range(0.1, 1e6)
-        .doc("path over which drift goes on in the same direction; beyond it adds up at random");
+        .doc("path over which drift is correlated; beyond it adds up like a random walk");
     is.param("max_deviation", &Params::max_deviation)
         .range(0.1, 1000)
-        .doc("standard deviations within which things agree");
+        .doc("standard deviations within which loops are consistent");
     is.param("min_agreement", &Params::min_agreement)
         .unit("%")
         .range(0, 1)
-        .doc("share of the neighbouring loops that must agree with a loop");
-    is.param("neighbourhood", &Params::neighbourhood)
+        .doc("share of the neighbouring loops that must be consistent with a loop");
+    is.param("max_path_separation", &Params::max_path_separation)
         .unit("m")
         .range(0, 1e6)
         .doc("loops with less path than this between them, at both ends, are compared");
-    is.param("max_alone_position", &Params::max_alone_position)
+    is.param("max_unconfirmed_sigma", &Params::max_unconfirmed_sigma)
         .unit("m")
         .range(0, 1e6)
         .doc(
-            "a loop that no other confirms is kept where the drift's standard deviation is no more "
-            "than this");
+            "a loop without neighbours is kept where the drift's standard deviation is at most "
+            "this");
     is.param("translation_sigma", &Params::translation_sigma)
         .unit("m")
         .range(0, 1000)
         .doc(
-            "deviation of a loop's translation on top of what its registration says: segments are "
-            "not quite rigid");
+            "standard deviation of a loop's translation, in addition to that of its registration: "
+            "segments are not quite rigid");
     is.param("rotation_sigma", &Params::rotation_sigma)
         .unit("rad")
-        .range(0, 10)
-        .doc("the same of its rotation");
+        .range(0, 360 * deg)
+        .doc("standard deviation of its rotation, likewise");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -113,13 +111,13 @@ struct PruneLoopConsistency : WholeStep {
                        params.rotation_sigma});
       of.push_back(k);
     }
-    const auto verdicts =
-        judge_loops(loops, *in.poses,
-                    {{params.translation_per_metre, params.rotation_per_metre, params.memory},
-                     params.max_deviation,
-                     params.min_agreement,
-                     params.neighbourhood,
-                     params.max_alone_position});
+    const auto verdicts = judge_loops(
+        loops, *in.poses,
+        {{params.translation_per_metre, params.rotation_per_metre, params.correlation_length},
+         params.max_deviation,
+         params.min_agreement,
+         params.max_path_separation,
+         params.max_unconfirmed_sigma});
     Out out;
     std::vector<std::string> fates(edges.size(), "not registered");
     std::size_t kept = 0, odometry = 0, contradicted = 0, alone = 0;
@@ -130,7 +128,7 @@ struct PruneLoopConsistency : WholeStep {
       contradicted += verdicts[n] == LoopVerdict::against_loops,
           alone += verdicts[n] == LoopVerdict::alone;
       if (verdicts[n] == LoopVerdict::kept)
-        out.relations.relative.push_back(relation_of(
+        out.constraints.relative.push_back(constraint_of(
             edges[of[n]], loops[n].T_i_j, widened(registrations[of[n]].information, params)));
     }
     out.metrics.add("loops_kept", static_cast<double>(kept), "")

@@ -39,22 +39,24 @@ Triple three_of(std::uint32_t n, Random& random) {
   return t;
 }
 
-/// Whether the two triangles can be one moved by up to `max_residual` at each corner, and can tell
-/// a rotation.
-bool alike(const Matches& m, const Triple& t, float max_residual) {
+/// Whether the two triangles can be one moved by up to `max_correspondence_distance` at each
+/// corner, and can tell a rotation.
+bool alike(const Matches& m, const Triple& t, float max_correspondence_distance) {
   for (int k = 0; k < 3; ++k) {
     const auto a = t[k], b = t[(k + 1) % 3];
     const float side_p = (m.p[a] - m.p[b]).norm(), side_q = (m.q[a] - m.q[b]).norm();
-    if (std::abs(side_p - side_q) > 2 * max_residual) return false;
-    if (std::min(side_p, side_q) < 4 * max_residual) return false;
+    if (std::abs(side_p - side_q) > 2 * max_correspondence_distance) return false;
+    if (std::min(side_p, side_q) < 4 * max_correspondence_distance) return false;
   }
   const Eigen::Vector3f u = m.q[t[1]] - m.q[t[0]], v = m.q[t[2]] - m.q[t[0]];
   return u.cross(v).norm() > 0.1f * u.norm() * v.norm();
 }
 
-std::vector<std::uint32_t> agreeing(const Matches& m, const Pose& T_i_j, double max_residual) {
+std::vector<std::uint32_t> agreeing(const Matches& m, const Pose& T_i_j,
+                                    double max_correspondence_distance) {
   const Motion i_from_j(T_i_j);
-  const auto squared_max = static_cast<float>(max_residual * max_residual);
+  const auto squared_max =
+      static_cast<float>(max_correspondence_distance * max_correspondence_distance);
   std::vector<std::uint32_t> inliers;
   for (std::uint32_t k = 0; k < m.size(); ++k)
     if ((m.p[k] - i_from_j * m.q[k]).squaredNorm() <= squared_max) inliers.push_back(k);
@@ -76,12 +78,12 @@ Consensus ransac(const Matches& matches, const RansacOptions& options, Random ra
   Consensus best;
   if (matches.size() < 3) return best;
   const auto pairs = static_cast<std::uint32_t>(matches.size());
-  double wanted = options.most_samples;
-  for (; best.samples < wanted && best.samples < options.most_samples; ++best.samples) {
+  double wanted = options.max_iterations;
+  for (; best.samples < wanted && best.samples < options.max_iterations; ++best.samples) {
     const Triple triple = three_of(pairs, random);
-    if (!alike(matches, triple, static_cast<float>(options.max_residual))) continue;
+    if (!alike(matches, triple, static_cast<float>(options.max_correspondence_distance))) continue;
     const Pose T_i_j = fit(matches, triple);
-    auto inliers = agreeing(matches, T_i_j, options.max_residual);
+    auto inliers = agreeing(matches, T_i_j, options.max_correspondence_distance);
     if (inliers.size() < 3 || inliers.size() <= best.inliers.size()) continue;
     best.T_i_j = T_i_j;
     best.inliers = std::move(inliers);
@@ -89,7 +91,7 @@ Consensus ransac(const Matches& matches, const RansacOptions& options, Random ra
   }
   while (!best.inliers.empty()) {
     const Pose finer = rigid_fit(matches, best.inliers);
-    auto inliers = agreeing(matches, finer, options.max_residual);
+    auto inliers = agreeing(matches, finer, options.max_correspondence_distance);
     if (inliers.size() < best.inliers.size()) break;
     const bool grew = inliers.size() > best.inliers.size();
     best.T_i_j = finer;

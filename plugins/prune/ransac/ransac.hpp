@@ -10,10 +10,10 @@
 namespace plumb {
 
 struct RansacOptions {
-  double max_residual = 0.5;  ///< [m] an inlier has |p - T_i_j q| up to this
+  double max_correspondence_distance = 0.5;  ///< [m] an inlier has |p - T_i_j q| up to this
   /// Chance to have drawn a sample of inliers alone, after which drawing stops.
   double confidence = 0.999;
-  std::uint32_t most_samples = 50000;  ///< drawn at most
+  std::uint32_t max_iterations = 50000;  ///< drawn at most
 };
 
 struct Consensus {
@@ -27,11 +27,12 @@ struct Consensus {
 /// (three or more, not in a line). Source: [Umeyama1991], without scale.
 Pose rigid_fit(const Matches& matches, const std::vector<std::uint32_t>& indices);
 
-/// Draws three pairs, drops them if their triangle's sides differ by more than 2 max_residual or it
-/// is too small to tell a rotation, else fits a motion and counts who agrees; the one with most
-/// (the first of equals) is fitted again to its inliers as long as their number grows. Drawing
-/// stops when the share w of inliers makes a sample of inliers likely enough: samples >= log(1 -
-/// confidence) / log(1 - w^3). Source: [Fischler1981]. The same `random` gives the same result.
+/// Draws three pairs, drops them if their triangle's sides differ by more than 2
+/// max_correspondence_distance or it is too small to tell a rotation, else fits a motion and counts
+/// who agrees; the one with most (the first of equals) is fitted again to its inliers as long as
+/// their number grows. Drawing stops when the share w of inliers makes a sample of inliers likely
+/// enough: samples >= log(1 - confidence) / log(1 - w^3). Source: [Fischler1981]. The same `random`
+/// gives the same result.
 Consensus ransac(const Matches& matches, const RansacOptions& options, Random random);
 
 }  // namespace plumb

@@ -86,7 +86,7 @@ TEST(Ransac, FitsARotationToPointsInAPlaneAndNoReflection) {
 Matches run(const Matches& matches, TestContext& context) {
   return StepRun(*plumb_module())
       .with("matches", matches)
-      .set("max_residual", 0.2)
+      .set("max_correspondence_distance", 0.2)
       .run<Matches>("matches", context);
 }
 

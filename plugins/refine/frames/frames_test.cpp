@@ -61,7 +61,7 @@ FrameOptions loose() {
   FrameOptions options;
   options.translation_sigma = 10;
   options.rotation_sigma = 1;
-  options.iterations = 20;
+  options.max_iterations = 20;
   return options;
 }
 
@@ -290,7 +290,9 @@ TEST(RefineFrames, MultipliesTheDistanceOfACorrespondenceByAScale) {
   const Walk walk;  // frames stand 0.14 m off
   const auto error = [&](double scale) {
     TestContext context;
-    auto step = walk.step().set("max_distance", 0.02).set("last_distance", 0.02);
+    auto step = walk.step()
+                    .set("max_correspondence_distance", 0.02)
+                    .set("final_max_correspondence_distance", 0.02);
     step.with("scale", Metrics().add("scale", scale, ""));
     return distance(step.run<Trajectory>("trajectory", context).T_world_frame[2],
                     walk.straight.T_world_frame[2]);

@@ -59,11 +59,13 @@ FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Ta
     prior[axis] = std::pow(axis < 3 ? options.translation_sigma : options.rotation_sigma, -2);
 
   FramePose result{start, 0};
-  for (std::uint32_t k = 0; k < options.iterations; ++k) {
+  for (std::uint32_t k = 0; k < options.max_iterations; ++k) {
     const double along =
-        options.iterations > 1 ? std::min(1.0, 2.0 * k / (options.iterations - 1)) : 1.0;
+        options.max_iterations > 1 ? std::min(1.0, 2.0 * k / (options.max_iterations - 1)) : 1.0;
     const double max =
-        options.max_distance * std::pow(options.last_distance / options.max_distance, along);
+        options.max_correspondence_distance *
+        std::pow(options.final_max_correspondence_distance / options.max_correspondence_distance,
+                 along);
     Normal sums;
     for (const auto& target : targets)
       if (!target.segment->cloud.empty())

@@ -10,15 +10,15 @@
 namespace plumb {
 
 struct FrameOptions {
-  double max_distance =
+  double max_correspondence_distance =
       1;  ///< [m] farthest that a point and its nearest may be apart, in the first iteration
-  double last_distance = 0.5;  ///< [m] in the last
-  std::uint32_t iterations = 6;
+  double final_max_correspondence_distance = 0.5;  ///< [m] in the last
+  std::uint32_t max_iterations = 6;
   std::uint32_t max_points = 800;  ///< of the frame, evenly chosen
   double noise = 0.1;  ///< [m] scale of the robust loss (Cauchy), and a point's standard deviation
-  std::uint32_t max_weight = 100;  ///< the points together weigh at most so many
-  double translation_sigma = 0.1;  ///< [m] of the frame's pose as it comes
-  double rotation_sigma = 0.005;   ///< [rad]
+  std::uint32_t max_weight = 100;     ///< the points together weigh at most so many
+  double translation_sigma = 0.1;     ///< [m] of the frame's pose as it comes
+  double rotation_sigma = 0.3 * deg;  ///< [rad]
 };
 
 /// A segment to register to, and where it lies.

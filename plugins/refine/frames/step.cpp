@@ -24,50 +24,52 @@ struct RefineFrames : WholeStep {
   static void describe(Declaration<RefineFrames>& is) {
     is.name("refine.frames").version(1).source("ours; [Chen1992] point-to-plane ICP");
     is.summary(
-        "Registers each frame to the segments before and after its own: takes out what the "
-        "odometry erred within a segment.");
-    is.input("trajectory", &In::trajectory, "the poses of all frames, near the segments' poses");
+        "Registers each frame to the neighbouring segments, which removes the odometry's error "
+        "within a segment.");
+    is.input("trajectory", &In::trajectory,
+             "the poses of all frames, close to the segments' poses");
     is.input("frames", &In::frames, "the clouds of all frames");
     is.input("segments", &In::segments, "the frames' segments, with normals");
-    is.input("poses", &In::poses, "where the segments are, in the trajectory's world");
+    is.input("poses", &In::poses, "poses of the segments, in the trajectory's world");
     is.scale(&In::scale);
     is.output("trajectory", &Out::trajectory, "the refined poses of all frames");
     is.param("neighbours", &Params::neighbours)
         .range(1, 100)
         .doc(
-            "segments before and as many after its own that a frame is registered to; its own is "
-            "left out, for it would hold the frame where it is");
-    is.param("max_distance", as_own(&FrameOptions::max_distance))
+            "segments before, and as many after its own, that a frame is registered to; its own "
+            "segment is left out, since it would keep the frame in place");
+    is.param("max_correspondence_distance", as_own(&FrameOptions::max_correspondence_distance))
         .unit("m")
         .range(1e-3, 100)
-        .doc("farthest that two points of a correspondence may be apart, in the first iteration");
-    is.param("last_distance", as_own(&FrameOptions::last_distance))
+        .doc("distance between the two points of a correspondence, in the first iteration");
+    is.param("final_max_correspondence_distance",
+             as_own(&FrameOptions::final_max_correspondence_distance))
         .unit("m")
         .range(1e-3, 100)
         .doc("the same in the last iteration");
-    is.param("iterations", as_own(&FrameOptions::iterations)).range(1, 1000).doc("at most");
+    is.param("max_iterations", as_own(&FrameOptions::max_iterations))
+        .range(1, 1000)
+        .doc("iterations of point-to-plane ICP");
     is.param("max_points", as_own(&FrameOptions::max_points))
         .range(30, 1e9)
-        .doc("points of a frame that are asked, evenly chosen");
+        .doc("points of a frame that are matched, evenly selected");
     is.param("noise", as_own(&FrameOptions::noise))
         .unit("m")
         .range(1e-4, 100)
-        .doc(
-            "distance to the plane from which a correspondence counts less (Cauchy), and its "
-            "standard deviation");
+        .doc("scale of the Cauchy loss on the distance to the plane, and its standard deviation");
     is.param("max_weight", as_own(&FrameOptions::max_weight))
         .range(1, 1e9)
-        .doc("the most that all correspondences of a frame weigh together");
+        .doc("total weight of all correspondences of a frame");
     is.param("translation_sigma", as_own(&FrameOptions::translation_sigma))
         .unit("m")
         .range(1e-6, 1e3)
         .doc(
-            "standard deviation of a frame's position as it comes: holds what its points do not "
-            "see");
+            "standard deviation of a frame's position in the input: a prior for directions that "
+            "its points do not constrain");
     is.param("rotation_sigma", as_own(&FrameOptions::rotation_sigma))
         .unit("rad")
-        .range(1e-8, 10)
-        .doc("the same of its orientation");
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of its orientation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

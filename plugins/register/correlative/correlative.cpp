@@ -25,38 +25,41 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
                             const CorrelativeOptions& options) {
   CorrelativeResult result;
   result.T = start;
-  const Places onto = within_range(target, options.range),
-               laid = within_range(source, options.range);
-  if (onto.x.empty() || laid.x.empty()) return result;
+  const Places fixed = within_range(target, options.max_range),
+               moving = within_range(source, options.max_range);
+  if (fixed.x.empty() || moving.x.empty()) return result;
 
   const bool known = start.x != 0 || start.y != 0 || start.yaw != 0;
-  const Trust trust{start, known ? options.trust : 0, options.trust_distance, options.trust_turn};
+  const Prior prior{start, known ? options.prior_weight : 0, options.prior_translation_sigma,
+                    options.prior_rotation_sigma};
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
-  const LikelihoodField coarse(onto.x, onto.y, options.resolution, options.sigma, 3 * options.sigma,
-                               levels);
-  const double step = yaw_step_for(laid.x, laid.y, options.resolution);
-  auto peak = best_pose(coarse, laid.x, laid.y,
-                        {start, options.reach, options.reach, options.turn, trust}, step, 0);
+  const LikelihoodField coarse(fixed.x, fixed.y, options.resolution, options.sigma,
+                               3 * options.sigma, levels);
+  const double step = yaw_step_for(moving.x, moving.y, options.resolution);
+  auto peak = best_pose(
+      coarse, moving.x, moving.y,
+      {start, options.search_window, options.search_window, options.search_angle, prior}, step, 0);
   if (!peak || peak->score < options.retry_below) {
     result.retried = true;
-    const auto wider = best_pose(coarse, laid.x, laid.y,
-                                 {start, options.retry_reach, options.retry_reach, M_PI, trust},
-                                 step, peak ? peak->score : 0);
+    const auto wider =
+        best_pose(coarse, moving.x, moving.y,
+                  {start, options.retry_search_window, options.retry_search_window, M_PI, prior},
+                  step, peak ? peak->score : 0);
     if (wider) peak = wider;
   }
   if (!peak) return result;
-  result.score = score_of(coarse, laid.x, laid.y, peak->pose);  // without what trust takes
+  result.score = score_of(coarse, moving.x, moving.y, peak->pose);  // without the prior
 
-  const LikelihoodField fine(onto.x, onto.y, options.fine_resolution, options.fine_sigma,
+  const LikelihoodField fine(fixed.x, fixed.y, options.fine_resolution, options.fine_sigma,
                              3 * options.fine_sigma, 3);
-  result.yaw_step = std::min(yaw_step_for(laid.x, laid.y, options.fine_resolution), step);
+  result.yaw_step = std::min(yaw_step_for(moving.x, moving.y, options.fine_resolution), step);
   const double room = 1.2 * options.resolution;
-  const auto best = best_pose(fine, laid.x, laid.y, {peak->pose, room, room, 1.5 * step, trust},
+  const auto best = best_pose(fine, moving.x, moving.y, {peak->pose, room, room, 1.5 * step, prior},
                               result.yaw_step, 0);
-  result.T =
-      best ? between_cells(fine, laid.x, laid.y, best->pose, result.yaw_step, trust) : peak->pose;
+  result.T = best ? between_cells(fine, moving.x, moving.y, best->pose, result.yaw_step, prior)
+                  : peak->pose;
   return result;
 }
 

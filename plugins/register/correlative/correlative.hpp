@@ -1,6 +1,5 @@
 #pragma once
-/// Lays one planar cloud onto another by trying every pose of a window, without a start worth the
-/// name.
+/// Registers one planar cloud to another by exhaustive search of a window of poses.
 
 #include "plumb/data/cloud.hpp"
 #include "plumb/geometry/correlative_search.hpp"
@@ -8,18 +7,19 @@
 namespace plumb {
 
 struct CorrelativeOptions {
-  double reach = 0.6;  ///< [m] half width of the window
-  double turn = 1.2;   ///< [rad] half width of the window
-  double trust = 0.1;  ///< score that a pose far from the start loses at most; half of it ...
-  double trust_distance = 0.05;   ///< [m] ... so far off
-  double trust_turn = 0.05;       ///< [rad] ... or turned so far
-  double resolution = 0.1;        ///< [m] of the first search
-  double sigma = 0.1;             ///< [m] of the first field
-  double retry_below = 0.5;       ///< a score below it is tried again in a window of
-  double retry_reach = 1.5;       ///< [m] ... and all headings
-  double fine_resolution = 0.03;  ///< [m] of the second search, round the first's peak
-  double fine_sigma = 0.1;        ///< [m]
-  double range = 30;              ///< [m] points farther from their sensor are left out
+  double search_window = 0.6;      ///< [m] half width of the window
+  double search_angle = 70 * deg;  ///< [rad] half width of the window
+  double prior_weight =
+      0.1;  ///< score that a pose far from the start loses at most; half of it ...
+  double prior_translation_sigma = 0.05;  ///< [m] ... so far off
+  double prior_rotation_sigma = 3 * deg;  ///< [rad] ... or turned so far
+  double resolution = 0.1;                ///< [m] of the first search
+  double sigma = 0.1;                     ///< [m] of the first field
+  double retry_below = 0.5;               ///< a score below it is tried again in a window of
+  double retry_search_window = 1.5;       ///< [m] ... and all headings
+  double fine_resolution = 0.03;          ///< [m] of the second search, round the first's peak
+  double fine_sigma = 0.1;                ///< [m]
+  double max_range = 30;                  ///< [m] points farther from their sensor are left out
 };
 
 struct CorrelativeResult {
@@ -29,9 +29,9 @@ struct CorrelativeResult {
   bool retried = false;
 };
 
-/// The pose in the window round `start` that lays `source` onto `target` best, between the cells of
-/// the second search by a parabola. A start that is the identity says nothing (there was no
-/// odometry) and is not trusted. Score 0 and `start` where either has no points in range.
+/// The pose in the window round `start` that registers `source` to `target` best, between the cells
+/// of the second search by a parabola. A start that is the identity is no prior (there was no
+/// odometry). Score 0 and `start` where either has no points in range.
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);
 

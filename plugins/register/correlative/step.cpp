@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include "correlative.hpp"
 #include "plumb/data/registration.hpp"
@@ -18,7 +17,7 @@ struct RegisterCorrelative : EdgeStep {
     Registration registration;
   };
   struct Params : CorrelativeOptions {
-    double least_score = 0.3;
+    double min_score = 0.3;
     std::string check() const {
       return fine_resolution > resolution ? "fine_resolution must not be larger than resolution"
                                           : "";
@@ -28,69 +27,69 @@ struct RegisterCorrelative : EdgeStep {
   static void describe(Declaration<RegisterCorrelative>& is) {
     is.name("register.correlative").version(1).source("[Olson2009]");
     is.summary(
-        "Lays planar clouds onto each other by trying every pose of a window round the present "
-        "one.");
-    is.input("edges", &In::edges, "which segments to lay onto each other");
+        "Registers planar clouds by exhaustive search of a window around the current pose "
+        "(correlative scan matching).");
+    is.input("edges", &In::edges, "pairs of segments to register");
     is.input("targets", &In::targets,
-             "the clouds to lay onto, in the plane; of each edge that of i counts");
-    is.input("sources", &In::sources, "the clouds that are laid; of each edge that of j counts");
-    is.input("poses", &In::poses, "where the segments are at present: the middle of the window");
-    is.output("registration", &Out::registration, "T_i_j and its score as overlap");
+             "the target clouds, in the plane; that of an edge's i is used");
+    is.input("sources", &In::sources, "the source clouds; that of an edge's j is used");
+    is.input("poses", &In::poses, "the current poses of the segments: the centre of the window");
+    is.output("registration", &Out::registration, "T_i_j, with its score as overlap");
     const auto param = [&is](const char* name, double CorrelativeOptions::*member) {
       return is.param(name, static_cast<double Params::*>(member));
     };
-    param("reach", &CorrelativeOptions::reach)
+    param("search_window", &CorrelativeOptions::search_window)
         .unit("m")
         .range(0.01, 20)
-        .doc("half the window's width in x and y");
-    param("turn", &CorrelativeOptions::turn)
+        .doc("half width of the window in x and y");
+    param("search_angle", &CorrelativeOptions::search_angle)
         .unit("rad")
-        .range(0.001, std::numbers::pi)
-        .doc("half the window's width in heading");
-    param("trust", &CorrelativeOptions::trust)
+        .range(0.05 * deg, 180 * deg)
+        .doc("half width of the window in heading");
+    param("prior_weight", &CorrelativeOptions::prior_weight)
         .range(0, 1)
         .doc(
-            "score that a pose far from the present one loses at most: where the points do not "
-            "say, as along a corridor, the present "
-            "pose does; a present pose that is the identity says nothing");
-    param("trust_distance", &CorrelativeOptions::trust_distance)
+            "score that a pose far from the current one loses at most, so that the current pose "
+            "decides where the points do not, as along a corridor; no effect where the current "
+            "pose is the identity");
+    param("prior_translation_sigma", &CorrelativeOptions::prior_translation_sigma)
         .unit("m")
         .range(1e-3, 10)
-        .doc("so far off half of that is lost");
-    param("trust_turn", &CorrelativeOptions::trust_turn)
+        .doc("translation at which half of it is lost");
+    param("prior_rotation_sigma", &CorrelativeOptions::prior_rotation_sigma)
         .unit("rad")
-        .range(1e-3, std::numbers::pi)
-        .doc("turned so far half of that is lost");
+        .range(0.05 * deg, 180 * deg)
+        .doc("rotation at which half of it is lost");
     param("resolution", &CorrelativeOptions::resolution)
         .unit("m")
         .range(0.01, 2)
-        .doc("grid of the first search");
+        .doc("edge length of a cell of the first search");
     param("sigma", &CorrelativeOptions::sigma)
         .unit("m")
         .range(0.005, 2)
-        .doc("how far off a point may lie and still count, in the first search");
+        .doc("standard deviation of a point's position in the first search");
     param("retry_below", &CorrelativeOptions::retry_below)
         .range(0, 1)
-        .doc("where the best score is lower the window is widened to retry_reach and all headings");
-    param("retry_reach", &CorrelativeOptions::retry_reach)
+        .doc(
+            "where the best score is lower, the window is widened to retry_search_window and all "
+            "headings");
+    param("retry_search_window", &CorrelativeOptions::retry_search_window)
         .unit("m")
         .range(0.01, 50)
         .doc("see retry_below");
     param("fine_resolution", &CorrelativeOptions::fine_resolution)
         .unit("m")
         .range(0.005, 1)
-        .doc("grid of the second search, round the peak of the first");
+        .doc("edge length of a cell of the second search, around the peak of the first");
     param("fine_sigma", &CorrelativeOptions::fine_sigma)
         .unit("m")
         .range(0.005, 1)
-        .doc("how far off a point may lie and still count, in the second search");
-    param("range", &CorrelativeOptions::range)
+        .doc("standard deviation of a point's position in the second search");
+    param("max_range", &CorrelativeOptions::max_range)
         .unit("m")
         .range(1, 1000)
         .doc("points farther from their sensor are left out");
-    is.param("least_score", &Params::least_score)
-        .range(0, 1)
-        .doc("score that a registration must have to be accepted");
+    is.param("min_score", &Params::min_score).range(0, 1).doc("score of an accepted registration");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -101,7 +100,7 @@ struct RegisterCorrelative : EdgeStep {
     out.iterations = found.retried ? 2 : 1;
     out.pairs = static_cast<std::uint32_t>(in.sources.j->cloud.size());
     out.overlap = static_cast<float>(found.score);
-    out.accepted = found.score >= params.least_score;
+    out.accepted = found.score >= params.min_score;
     if (out.accepted) {
       // A cell's width as standard deviation.
       const double place = std::pow(params.fine_resolution, -2),

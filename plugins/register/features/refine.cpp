@@ -93,11 +93,13 @@ Registration refined(const Segment& i, const Segment& j, const Pose& start,
   Registration result;
   Pose T_j_i = start;
   std::vector<PlanePair> pairs;
-  for (std::uint32_t n = 0; n < options.iterations; ++n) {
+  for (std::uint32_t n = 0; n < options.max_iterations; ++n) {
     const double along =
-        std::min(1.0, 2.0 * n / options.iterations);  // the second half has the last distance
+        std::min(1.0, 2.0 * n / options.max_iterations);  // the second half has the last distance
     const double max =
-        options.first_distance * std::pow(options.max_distance / options.first_distance, along);
+        options.initial_max_correspondence_distance *
+        std::pow(options.max_correspondence_distance / options.initial_max_correspondence_distance,
+                 along);
     pairs = pairs_of(i, j, T_j_i, max, options.max_normal_angle, options.max_points).pairs;
     ++result.iterations;
     if (pairs.size() < 30) break;
@@ -106,10 +108,10 @@ Registration refined(const Segment& i, const Segment& j, const Pose& start,
     const Pose moved = before.inverse() * T_j_i;
     if (along >= 1 && moved.translation.norm() < 1e-3 && angle(moved) < 1e-4) break;
   }
-  const Asked forth =
-      pairs_of(i, j, T_j_i, options.max_distance, options.max_normal_angle, options.max_points);
-  const Asked back = pairs_of(j, i, T_j_i.inverse(), options.max_distance, options.max_normal_angle,
-                              options.max_points);
+  const Asked forth = pairs_of(i, j, T_j_i, options.max_correspondence_distance,
+                               options.max_normal_angle, options.max_points);
+  const Asked back = pairs_of(j, i, T_j_i.inverse(), options.max_correspondence_distance,
+                              options.max_normal_angle, options.max_points);
   result.T_i_j = T_j_i.inverse();
   result.pairs = static_cast<std::uint32_t>(forth.pairs.size());
   result.overlap = static_cast<float>(std::min(share(forth), share(back)));

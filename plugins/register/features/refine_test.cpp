@@ -116,7 +116,7 @@ std::vector<BrutePair> brute_pairs(const Segment& i, const Segment& j, const Pos
   std::vector<BrutePair> pairs;
   for (std::size_t k = 0; k < i.cloud.size(); ++k) {
     const Eigen::Vector3d p = i.cloud.point(k).cast<double>(), at = T * p;
-    double least = options.max_distance;
+    double least = options.max_correspondence_distance;
     std::size_t nearest = j.cloud.size();
     for (std::size_t n = 0; n < j.cloud.size(); ++n)
       if (const double d = (j.cloud.point(n).cast<double>() - at).norm(); d < least)

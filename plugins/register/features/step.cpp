@@ -18,8 +18,8 @@ struct RegisterFeatures : EdgeStep {
     double tolerance = 0.6;
     std::uint32_t min_inliers = 12;
     double min_overlap = 0.25;
-    double first_distance = 2;
-    double max_distance = 0.5;
+    double initial_max_correspondence_distance = 2;
+    double max_correspondence_distance = 0.5;
     std::uint32_t max_points = 2000;
     std::uint32_t max_pairs = 1500;
     std::uint32_t independent = 50;
@@ -28,10 +28,10 @@ struct RegisterFeatures : EdgeStep {
   static void describe(Declaration<RegisterFeatures>& is) {
     is.name("register.features").version(1);
     is.summary(
-        "Registers two segments wherever they are: by the motion that feature matches agree on, "
-        "then by their clouds.");
+        "Registers two segments without an initial pose, by consensus of feature matches and then "
+        "ICP.");
     is.source("[Chen2022] SC2-PCR for the agreement; [Chen1992] point-to-plane ICP");
-    is.input("matches", &In::matches, "pairs of key points, most of which may be wrong");
+    is.input("matches", &In::matches, "pairs of keypoints, most of which may be wrong");
     is.input("segments", &In::segments, "the clouds, with normals");
     is.scale(&In::scale);
     is.output("registration", &Out::registration,
@@ -40,8 +40,8 @@ struct RegisterFeatures : EdgeStep {
         .unit("m")
         .range(0.001, 100)
         .doc(
-            "lengths between the points of two right pairs differ by at most this, and a right "
-            "pair is at most so far apart");
+            "correct pairs preserve the distance between their points up to this value, and are at "
+            "most this far apart");
     is.param("min_inliers", &Params::min_inliers)
         .range(3, 1e6)
         .doc("pairs that must agree on one motion");
@@ -49,27 +49,25 @@ struct RegisterFeatures : EdgeStep {
         .unit("%")
         .range(0, 1)
         .doc(
-            "share of the points in the common box that must lie on a surface of the other cloud, "
+            "share of the points in the common box that must lie on a surface of the other cloud "
             "after alignment");
-    is.param("first_distance", &Params::first_distance)
+    is.param("initial_max_correspondence_distance", &Params::initial_max_correspondence_distance)
         .unit("m")
         .range(0.001, 100)
-        .doc(
-            "ICP: farthest that two points of a correspondence may be apart, in the first "
-            "iteration");
-    is.param("max_distance", &Params::max_distance)
+        .doc("ICP: distance between the two points of a correspondence, in the first iteration");
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(0.001, 100)
         .doc("the same in the last iterations, and for the overlap");
     is.param("max_points", &Params::max_points)
         .range(30, 1e9)
-        .doc("points of a cloud that are asked, evenly chosen");
+        .doc("points of a cloud that are matched, evenly selected");
     is.param("max_pairs", &Params::max_pairs)
         .range(3, 20000)
-        .doc("matches that are looked at, evenly chosen; the time goes with the square");
+        .doc("matches that are used, evenly selected; the time grows with the square");
     is.param("independent", &Params::independent)
         .range(1, 1e9)
-        .doc("the correspondences count as so many independent ones in the information");
+        .doc("number of independent correspondences that the information is computed for");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -84,7 +82,8 @@ struct RegisterFeatures : EdgeStep {
       return {};
     }
     Registration r = refined(i, j, agreed.T_j_i,
-                             {params.first_distance, params.max_distance, 20, params.max_points},
+                             {params.initial_max_correspondence_distance,
+                              params.max_correspondence_distance, 20, params.max_points},
                              params.independent);
     r.accepted = r.overlap >= params.min_overlap && !r.information.isZero(0);
     context.count(r.accepted ? "edges registered"

@@ -12,7 +12,7 @@ const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}),
     T_world_j(exp_rotation({-0.02, 0.01, 2.0}), {-3, 2, 1.8});
 const Pose T_i_j = T_world_i.inverse() * T_world_j;
 
-/// `right` key points of the yard as both segments see them, 0.1 m off, and `wrong` pairs of
+/// `right` keypoints of the yard as both segments see them, 0.1 m off, and `wrong` pairs of
 /// different points.
 Matches planted(int right, int wrong, const Pose& T_i_j_planted, std::uint32_t seed) {
   const Cloud world = yard(1);

@@ -7,16 +7,16 @@ namespace plumb {
 namespace {
 
 struct RegisterParams {
-  double reach = 0.3;
+  double max_correspondence_distance = 0.3;
   Metric metric = Metric::point;
-  std::uint32_t iterations = 50;
+  std::uint32_t max_iterations = 50;
   double change = 1e-4;
   double ratio = 0.95;
   double noise = 0.03;
-  std::optional<double> hold;
-  double least_overlap = 0.5;
+  std::optional<double> start_sigma;
+  double min_overlap = 0.5;
   std::string check() const {
-    return hold && metric == Metric::point ? "'hold' goes with 'metric: line'" : "";
+    return start_sigma && metric == Metric::point ? "'start_sigma' goes with 'metric: line'" : "";
   }
 };
 
@@ -36,38 +36,39 @@ struct Register : EdgeStep {
 
   template <class Self>
   static void describe_shared(Declaration<Self>& is) {
-    is.input("edges", &In::edges, "which segments to lay onto each other");
+    is.input("edges", &In::edges, "pairs of segments to register");
     is.input("targets", &In::targets,
-             "the clouds to lay onto, in the plane; of each edge that of i counts");
-    is.input("sources", &In::sources, "the clouds that are laid; of each edge that of j counts");
-    is.input("poses", &In::poses, "where the segments are at present: where the search starts");
-    is.optional_input("initial", &In::initial, "where the search starts instead, if accepted");
+             "the target clouds, in the plane; that of an edge's i is used");
+    is.input("sources", &In::sources, "the source clouds; that of an edge's j is used");
+    is.input("poses", &In::poses, "the current poses of the segments: the initial guess");
+    is.optional_input("initial", &In::initial, "the initial guess instead, if accepted");
     is.output("registration", &Out::registration,
               "T_i_j, its information, iterations, MAE and overlap");
-    is.param("reach", &Params::reach)
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(1e-3, 100)
-        .doc("farthest that a pair may be apart");
-    is.choice("metric", &Params::metric,
-              {{"point", Metric::point, "the distance of the pairs"},
-               {"line", Metric::line,
-                "its part along the target's normal (estimate.normals with planar)"}})
-        .doc("what is made small")
+        .doc("distance between the two points of a pair");
+    is.choice(
+          "metric", &Params::metric,
+          {{"point", Metric::point, "point-to-point distance"},
+           {"line", Metric::line,
+            "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
+        .doc("the error that is minimised")
         .source("[Zhang2023] eq. (3)");
-    is.param("iterations", &Params::iterations)
+    is.param("max_iterations", &Params::max_iterations)
         .range(0, 10000)
-        .doc("the most iterations; 0: where they are is only judged");
+        .doc("iterations; 0: the initial guess is only evaluated");
     is.param("noise", &Params::noise)
         .unit("m")
         .range(1e-4, 10)
         .doc("standard deviation of a pair's residual, for the information");
-    is.param("hold", &Params::hold)
+    is.param("start_sigma", &Params::start_sigma)
         .unit("m")
         .range(1e-4, 100)
         .doc(
-            "with metric line, standard deviation of the start, a third of it in rad for the "
-            "heading; none: free");
-    is.param("least_overlap", &Params::least_overlap)
+            "with metric line, standard deviation of the initial guess's position, a third of it "
+            "in rad for the heading; none: no prior");
+    is.param("min_overlap", &Params::min_overlap)
         .range(0, 1)
         .doc("share of the points that must have a pair for the registration to be accepted");
   }
@@ -83,17 +84,18 @@ struct Register : EdgeStep {
         planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
     IcpOptions options;
     options.stop = stop, options.metric = params.metric, options.change = params.change;
-    options.ratio = params.ratio, options.reach = params.reach,
-    options.iterations = params.iterations;
-    options.noise = params.noise, options.hold = params.hold;
+    options.ratio = params.ratio,
+    options.max_correspondence_distance = params.max_correspondence_distance,
+    options.max_iterations = params.max_iterations;
+    options.noise = params.noise, options.start_sigma = params.start_sigma;
     Registration out;
     out.T_i_j = in_space(start);
     if (!target.cloud.empty() && !source.cloud.empty()) {
-      const IcpResult found = lay_onto(target.cloud, target.tree(), source.cloud, start, options);
+      const IcpResult found = align(target.cloud, target.tree(), source.cloud, start, options);
       out.T_i_j = in_space(found.T);
       out.iterations = found.iterations, out.pairs = found.pairs;
       out.mae = static_cast<float>(found.mae), out.overlap = static_cast<float>(found.overlap);
-      out.accepted = found.pairs >= 3 && found.overlap >= params.least_overlap;
+      out.accepted = found.pairs >= 3 && found.overlap >= params.min_overlap;
       const int at[3] = {0, 1, 5};
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) out.information(at[r], at[c]) = found.information(r, c);
@@ -108,11 +110,11 @@ struct RegisterIcp : Register<Stop::change> {
   static void describe(Declaration<RegisterIcp>& is) {
     is.name("register.icp").version(1).source("[Zhang2023] eq. (1)-(11)");
     is.summary(
-        "Lays planar clouds onto each other by iterated closest points, until the pose rests.");
+        "Registers planar clouds by ICP (iterative closest points), until the pose converges.");
     describe_shared(is);
     is.param("change", &Params::change)
         .range(1e-9, 1)
-        .doc("it rests when it moves by less, m and rad together");
+        .doc("converged when an iteration moves the pose by less, m and rad added");
   }
 };
 
@@ -120,14 +122,14 @@ struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
     is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
     is.summary(
-        "Lays planar clouds onto each other by iterated closest points, until the mean distance "
-        "stops falling.");
+        "Registers planar clouds by ICP (iterative closest points), until the mean distance of the "
+        "pairs stops decreasing.");
     describe_shared(is);
     is.param("ratio", &Params::ratio)
         .range(0, 1)
         .source("[Zhang2023] 2")
         .doc(
-            "stops when the mean distance of the pairs is no less than this times that of the "
+            "stops when the mean distance of the pairs is at least this times that of the "
             "iteration before");
   }
 };

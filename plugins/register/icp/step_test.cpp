@@ -19,7 +19,7 @@ Segment segment_of(const Cloud& cloud) {
   return segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0));
 }
 
-TEST(RegisterStep, LaysTheSourceOfJOntoTheTargetOfI) {
+TEST(RegisterStep, RegistersTheSourceOfJToTheTargetOfI) {
   const PlanarPose a{}, b{0.1, 0, 0.03};
   const Segment i = segment_of(scan(a, 360, 0.005, 1)), j = segment_of(scan(b, 360, 0.005, 2));
   for (const std::size_t which : {0u, 1u}) {

@@ -42,7 +42,7 @@ Trajectory turning(std::size_t frames) {
   return trajectory;
 }
 
-std::vector<Range> run(const Trajectory& trajectory, std::int64_t frames, Poses& poses) {
+std::vector<FrameRange> run(const Trajectory& trajectory, std::int64_t frames, Poses& poses) {
   const Step& step = *plumb_module()->steps[0];
   PortInput input;
   input.wired = true;
@@ -50,8 +50,8 @@ std::vector<Range> run(const Trajectory& trajectory, std::int64_t frames, Poses&
   PortOutput outputs[2];
   TestContext context;
   step.run(step.parameters({{"frames", frames}}).get(), {&input, 1}, outputs, context);
-  std::vector<Range> ranges;
-  for (const auto& value : outputs[0].many) ranges.push_back(*value.as<Range>());
+  std::vector<FrameRange> ranges;
+  for (const auto& value : outputs[0].many) ranges.push_back(*value.as<FrameRange>());
   poses = *outputs[1].one.as<Poses>();
   return ranges;
 }
@@ -64,7 +64,7 @@ TEST(SegmentByCount, PutsEachSegmentIntoItsMiddleFrameAndCoversTheTrajectory) {
   ASSERT_EQ(poses.size(), 5u);
   std::uint32_t next = 0;
   for (std::size_t s = 0; s < ranges.size(); ++s) {
-    const Range& range = ranges[s];
+    const FrameRange& range = ranges[s];
     EXPECT_EQ(range.first, next);
     next = range.end;
     ASSERT_EQ(range.T_segment_frame.size(), range.size());

@@ -10,7 +10,7 @@ struct ByCount : WholeStep {
     One<Trajectory> trajectory;
   };
   struct Out {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     Poses poses;
   };
   struct Params {
@@ -22,10 +22,10 @@ struct ByCount : WholeStep {
     is.summary("Cuts the trajectory into segments of an equal number of frames.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.output("ranges", &Out::ranges, "the frames of each segment");
-    is.output("poses", &Out::poses, "where each segment is: the pose of its middle frame");
+    is.output("poses", &Out::poses, "pose of each segment: that of its middle frame");
     is.param("frames", &Params::frames)
         .range(1, 65535)
-        .doc("frames a segment")
+        .doc("frames per segment")
         .source("[Tang2024] 3.1");
   }
 

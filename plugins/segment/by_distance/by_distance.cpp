@@ -11,11 +11,11 @@ double grown_length(double path, double length, std::optional<double> max_length
 }
 
 std::vector<std::size_t> starts_by_distance(
-    const std::vector<double>& travelled, double length, std::optional<std::size_t> most_frames,
+    const std::vector<double>& travelled, double length, std::optional<std::size_t> max_frames,
     const std::function<bool(std::size_t, std::size_t)>& breaks) {
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < travelled.size(); ++k) {
-    const bool full = !starts.empty() && most_frames && k - starts.back() >= *most_frames;
+    const bool full = !starts.empty() && max_frames && k - starts.back() >= *max_frames;
     const bool broken = !starts.empty() && breaks && breaks(starts.back(), k);
     if (starts.empty() || full || broken || travelled[k] - travelled[starts.back()] > length)
       starts.push_back(k);
@@ -23,7 +23,7 @@ std::vector<std::size_t> starts_by_distance(
   if (starts.size() < 2) return starts;
   const std::size_t last = starts.back(), before = starts[starts.size() - 2];
   const bool short_path = travelled.back() - travelled[last] < 0.5 * length;
-  const bool few_frames = !most_frames || 2 * (travelled.size() - last) < *most_frames;
+  const bool few_frames = !max_frames || 2 * (travelled.size() - last) < *max_frames;
   const bool fits = travelled.back() - travelled[before] < 2 * length;
   const bool parted = breaks && breaks(before, travelled.size() - 1);
   if (short_path && few_frames && fits && !parted) starts.pop_back();

@@ -57,8 +57,8 @@ TEST(SegmentByDistance, MeasuresThePathAndNotTheDistanceFromTheStart) {
   TestContext context;
   step.run(step.parameters({{"length", 4.0}}).get(), inputs, outputs, context);
   ASSERT_EQ(outputs[0].many.size(), 2u);
-  EXPECT_EQ(outputs[0].many[0].as<Range>()->end, 5u);
-  EXPECT_EQ(outputs[0].many[1].as<Range>()->end, 11u);
+  EXPECT_EQ(outputs[0].many[0].as<FrameRange>()->end, 5u);
+  EXPECT_EQ(outputs[0].many[1].as<FrameRange>()->end, 11u);
   EXPECT_EQ(outputs[1].one.as<Poses>()->size(), 2u);
 }
 
@@ -112,7 +112,7 @@ std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& valu
   TestContext context;
   step.run(step.parameters(values).get(), inputs, outputs, context);
   std::vector<std::size_t> ends;
-  for (const auto& range : outputs[0].many) ends.push_back(range.as<Range>()->end);
+  for (const auto& range : outputs[0].many) ends.push_back(range.as<FrameRange>()->end);
   return ends;
 }
 

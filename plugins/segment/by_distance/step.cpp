@@ -1,5 +1,4 @@
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include "by_distance.hpp"
@@ -15,13 +14,13 @@ struct ByDistance : WholeStep {
     One<Metrics> scale;
   };
   struct Out {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     Poses poses;
   };
   struct Params {
     double length = 15;
-    std::optional<std::uint32_t> most_frames;
-    std::optional<double> turn;
+    std::optional<std::uint32_t> max_frames;
+    std::optional<double> max_rotation;
     std::optional<double> max_length;
     std::uint32_t max_segments = 1000;
     std::string check() const {
@@ -33,24 +32,24 @@ struct ByDistance : WholeStep {
 
   static void describe(Declaration<ByDistance>& is) {
     is.name("segment.by_distance").version(2).source("[Tang2024] 2.2, by path instead of by count");
-    is.summary("Cuts the trajectory into segments of an equal length of path.");
+    is.summary("Cuts the trajectory into segments of equal path length.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.scale(&In::scale);
     is.output("ranges", &Out::ranges, "the frames of each segment");
-    is.output("poses", &Out::poses, "where each segment is: the pose of its middle frame");
+    is.output("poses", &Out::poses, "pose of each segment: that of its middle frame");
     is.param("length", &Params::length)
         .unit("m")
         .range(0.01, 1e6)
-        .doc("path from a segment's first frame to its last, at most");
-    is.param("most_frames", &Params::most_frames)
+        .doc("path length from a segment's first frame to its last, at most");
+    is.param("max_frames", &Params::max_frames)
         .range(1, 65535)
-        .doc("frames a segment at most, for where the sensor rests; none: no limit");
-    is.param("turn", &Params::turn)
+        .doc("frames per segment, for where the sensor rests; none: no limit");
+    is.param("max_rotation", &Params::max_rotation)
         .unit("rad")
-        .range(1e-4, std::numbers::pi)
+        .range(0.005 * deg, 180 * deg)
         .doc(
-            "a frame that is turned by more against its segment's first begins a new one; none: "
-            "however far");
+            "a frame whose rotation relative to its segment's first frame exceeds this begins a "
+            "new segment; none: no limit");
     is.param("max_length", &Params::max_length)
         .unit("m")
         .range(0.01, 1e6)
@@ -64,15 +63,15 @@ struct ByDistance : WholeStep {
     Out out;
     const auto& poses = in.trajectory->T_world_frame;
     std::function<bool(std::size_t, std::size_t)> turned;
-    if (params.turn)
+    if (params.max_rotation)
       turned = [&](std::size_t first, std::size_t k) {
-        return angle(poses[first].inverse() * poses[k]) > *params.turn;
+        return angle(poses[first].inverse() * poses[k]) > *params.max_rotation;
       };
     const auto path = travelled(*in.trajectory);
     const double length = grown_length(path.empty() ? 0 : path.back(), params.length,
                                        params.max_length, params.max_segments);
     out.ranges =
-        ranges_from(*in.trajectory, starts_by_distance(path, length, params.most_frames, turned));
+        ranges_from(*in.trajectory, starts_by_distance(path, length, params.max_frames, turned));
     out.poses = poses_of(out.ranges);
     return out;
   }

@@ -72,7 +72,7 @@ struct Merger {
 
 }  // namespace
 
-Segment merge(const Range& range, const OpenFrame& open) {
+Segment merge(const FrameRange& range, const OpenFrame& open) {
   Merger merger;
   for (std::size_t k = 0; k < range.size(); ++k) {
     const auto frame = open(k);
@@ -88,9 +88,9 @@ Segment merge(const Range& range, const OpenFrame& open) {
   return empty.with(std::move(merger.cloud), std::move(merger.frame));
 }
 
-Segment merge_thinned(const Range& range, double leaf, const OpenFrame& open,
+Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open,
                       std::size_t& dropped) {
-  VoxelMeans means(leaf);
+  VoxelMeans means(voxel_size);
   const auto origins = range.origins();
   for (std::size_t k = 0; k < range.size(); ++k) {
     Merger moved;

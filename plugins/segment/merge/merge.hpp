@@ -14,10 +14,11 @@ using OpenFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
 /// The points of all frames in the segment's coordinates [m], in order of the frames, moved in
 /// float by range.T_segment_frame. Normals are turned. An array that some frame with points lacks
 /// is dropped.
-Segment merge(const Range& range, const OpenFrame& open);
+Segment merge(const FrameRange& range, const OpenFrame& open);
 
-/// What VoxelMeans makes of that in cells of `leaf` [m], one frame after another: the merged cloud
-/// itself is never in memory. `dropped`: points with a coordinate that is no finite number.
-Segment merge_thinned(const Range& range, double leaf, const OpenFrame& open, std::size_t& dropped);
+/// What VoxelMeans makes of that in cells of `voxel_size` [m], one frame after another: the merged
+/// cloud itself is never in memory. `dropped`: points with a non-finite coordinate.
+Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open,
+                      std::size_t& dropped);
 
 }  // namespace plumb

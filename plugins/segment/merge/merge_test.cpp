@@ -32,7 +32,7 @@ Cloud scan(std::uint64_t seed, std::size_t n) {
 }
 
 struct Merged {
-  Range range;
+  FrameRange range;
   std::vector<Frame> frames;
   std::vector<std::size_t> opened;
 

@@ -6,7 +6,7 @@ namespace {
 struct SegmentPoses : WholeStep {
   struct In {
     One<Trajectory> trajectory;
-    Each<Range> ranges;
+    Each<FrameRange> ranges;
   };
   struct Out {
     Poses poses;
@@ -16,12 +16,13 @@ struct SegmentPoses : WholeStep {
   static void describe(Declaration<SegmentPoses>& is) {
     is.name("segment.poses").version(1).source("ours");
     is.summary(
-        "Tells where a trajectory puts segments that were cut from another one of the same "
+        "Evaluates a trajectory at segments that were cut from another trajectory of the same "
         "frames.");
     is.input("trajectory", &In::trajectory, "the poses of all frames");
     is.input("ranges", &In::ranges, "the frames of each segment");
     is.output("poses", &Out::poses,
-              "the pose of each segment's middle frame, whose coordinates the segment has");
+              "the pose of each segment's middle frame, which is the origin of the segment's "
+              "coordinates");
   }
 
   Out run(const In& in, const Params&, Context&) const {

@@ -61,9 +61,9 @@ bool PairCost::Evaluate(double const* const* poses, double* residuals, double** 
   return true;
 }
 
-G2oCost::G2oCost(const RelativePose& relation, const double* root_weight)
-    : T_j_i_(relation.T_i_j.inverse()),
-      root_(information_root(relation.information)),
+G2oCost::G2oCost(const RelativePose& constraint, const double* root_weight)
+    : T_j_i_(constraint.T_i_j.inverse()),
+      root_(information_root(constraint.information)),
       root_weight_(root_weight) {}
 
 bool G2oCost::Evaluate(double const* const* poses, double* residuals, double** jacobians) const {
@@ -91,11 +91,11 @@ bool G2oCost::Evaluate(double const* const* poses, double* residuals, double** j
   return true;
 }
 
-ChordalCost::ChordalCost(const RelativePose& relation, bool planar, const double* root_weight)
-    : R_i_j_(relation.T_i_j.matrix()),
-      t_i_j_(relation.T_i_j.translation),
+ChordalCost::ChordalCost(const RelativePose& constraint, bool planar, const double* root_weight)
+    : R_i_j_(constraint.T_i_j.matrix()),
+      t_i_j_(constraint.T_i_j.translation),
       root_weight_(root_weight) {
-  const auto weights = chordal_weights(relation.information, planar);
+  const auto weights = chordal_weights(constraint.information, planar);
   root_tau_ = std::sqrt(weights.tau);
   root_kappa_ = std::sqrt(weights.kappa);
 }

@@ -59,10 +59,11 @@ TEST(Costs, HaveTheDerivativesThatFiniteDifferencesFind) {
   const double weight = 0.7;
   for (int trial = 0; trial < 20; ++trial) {
     const Pose a = random_pose(random), b = random_pose(random);
-    const RelativePose relation{0, 1, random_pose(random), random_information(random)};
-    expect_right_derivatives(G2oCost(relation, &weight), {a, b});
-    expect_right_derivatives(ChordalCost(relation, false, &weight), {a, b});
-    expect_right_derivatives(AbsolutePoseCost({0, random_pose(random), relation.information}), {a});
+    const RelativePose constraint{0, 1, random_pose(random), random_information(random)};
+    expect_right_derivatives(G2oCost(constraint, &weight), {a, b});
+    expect_right_derivatives(ChordalCost(constraint, false, &weight), {a, b});
+    expect_right_derivatives(AbsolutePoseCost({0, random_pose(random), constraint.information}),
+                             {a});
     expect_right_derivatives(AbsolutePointCost({0, gauss3(random, 5), gauss3(random, 5),
                                                 Eigen::Matrix3d::Identity() * 4}),
                              {a});

@@ -16,7 +16,8 @@ EdgeState::EdgeState(const MatchedEdge& edge, const GraphOptions& options)
     given += given_weight(k);
   }
   if (pairs() > 0) centre_ /= static_cast<double>(pairs());
-  if (options_.edge_weight && given > *options_.edge_weight) share_ = *options_.edge_weight / given;
+  if (options_.max_edge_weight && given > *options_.max_edge_weight)
+    share_ = *options_.max_edge_weight / given;
 }
 
 template <class Body>

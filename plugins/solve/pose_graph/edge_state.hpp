@@ -49,7 +49,7 @@ class EdgeState {
     return matches_->weight.empty() ? 1.0 : static_cast<double>(matches_->weight[k]);
   }
   Loss pair_loss() const {
-    const bool held = options_.hold_sequential && edge_.kind == EdgeKind::sequential;
+    const bool held = options_.sequential_huber && edge_.kind == EdgeKind::sequential;
     return held && options_.loss != Loss::none ? Loss::huber : options_.loss;
   }
   Loss edge_loss() const {
@@ -60,7 +60,7 @@ class EdgeState {
   const Matches* matches_;
   const GraphOptions& options_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  double share_ = 1;  ///< what edge_weight leaves of each pair's weight
+  double share_ = 1;  ///< what max_edge_weight leaves of each pair's weight
   PairForm form_;
   double one_ = 1;
   double mean_weight_ = 1, rms_ = 0, weighted_squares_ = 0, weight_sum_ = 0;

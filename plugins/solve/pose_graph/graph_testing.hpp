@@ -45,7 +45,7 @@ inline Matches pairs_of(const Edge& e, const Poses& poses, int pairs, double noi
   return m;
 }
 
-/// `laps` laps of `lap` segments round a circle, 10 m apart; drift grows with the way. Sequential
+/// `laps` laps of `lap` segments round a circle, 10 m apart; drift grows with the path. Sequential
 /// edges, and a loop edge from each segment to the one a lap later.
 inline TestGraph circle(int lap, int laps, std::uint32_t seed, double drift = 1) {
   std::mt19937 random(seed);

@@ -119,9 +119,9 @@ TEST(DiagonalBlocksOfInverse, AreRefusedWhereNothingHoldsTheGraph) {
 // ---- uncertainty of poses
 // ---------------------------------------------------------------------------------------------------
 
-constexpr double sigma_t = 0.1, sigma_r = 0.002;  // of each relation: [m], [rad]
+constexpr double sigma_t = 0.1, sigma_r = 0.002;  // of each constraint: [m], [rad]
 
-RelativePose relation(std::uint32_t i, std::uint32_t j, const Pose& T_i_j) {
+RelativePose constraint(std::uint32_t i, std::uint32_t j, const Pose& T_i_j) {
   RelativePose r{i, j, T_i_j, Matrix6d::Zero()};
   r.information.diagonal().head<3>().setConstant(1 / (sigma_t * sigma_t));
   r.information.diagonal().tail<3>().setConstant(4 /
@@ -131,16 +131,16 @@ RelativePose relation(std::uint32_t i, std::uint32_t j, const Pose& T_i_j) {
 
 struct Chain {
   Poses poses;
-  Relations relations;
+  Constraints constraints;
 };
 
-/// n poses, each `motion` after the one before, and the relations that say so.
+/// n poses, each `motion` after the one before, and the constraints that say so.
 Chain chain_of(int n, const Pose& motion) {
   Chain chain;
   chain.poses.T_world_segment.resize(1);
   for (std::uint32_t k = 1; k < static_cast<std::uint32_t>(n); ++k) {
     chain.poses.T_world_segment.push_back(chain.poses.T_world_segment.back() * motion);
-    chain.relations.relative.push_back(relation(k - 1, k, motion));
+    chain.constraints.relative.push_back(constraint(k - 1, k, motion));
   }
   return chain;
 }
@@ -157,7 +157,7 @@ GraphOptions uncertain() {
 }
 
 GraphResult solved(const Chain& chain, const GraphOptions& options) {
-  return solve_pose_graph(chain.poses, {}, &chain.relations, options, in_order);
+  return solve_pose_graph(chain.poses, {}, &chain.constraints, options, in_order);
 }
 
 double variance_factor(const GraphResult& result) {
@@ -187,7 +187,7 @@ Matrix6d carried(const Pose& T_a_b) {
   return m;
 }
 
-TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
+TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsConstraints) {
   const auto all = covariances(chain_of(30, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0})));
   for (int k = 1; k < 30; ++k) {
     const Matrix6d& c = all[static_cast<std::size_t>(k)];
@@ -195,7 +195,7 @@ TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
         << "along, pose " << k;
     for (int axis = 3; axis < 6; ++axis)
       EXPECT_NEAR(c(axis, axis), k * sigma_r * sigma_r, 1e-7 * k * sigma_r * sigma_r);
-    double across = 0;  // a relation's angle swings all that follows it
+    double across = 0;  // a constraint's angle swings all that follows it
     for (int from = 1; from <= k; ++from)
       across += sigma_t * sigma_t + std::pow(sigma_r * 10 * (k - from), 2);
     EXPECT_NEAR(c(1, 1), across, 1e-7 * across) << "across, pose " << k;
@@ -203,7 +203,7 @@ TEST(Uncertainty, OfAStraightChainGrowsAsTheSumOfItsRelations) {
   }
 }
 
-TEST(Uncertainty, OfABentChainIsWhatEachRelationsErrorBecomesAtItsEnd) {
+TEST(Uncertainty, OfABentChainIsWhatEachConstraintsErrorBecomesAtItsEnd) {
   const Chain chain = chain_of(25, Pose(exp_rotation({0.02, -0.05, 0.2}), {6, 1, -0.5}));
   const auto all = covariances(chain);
   const Matrix6d one = (Vector6d() << Eigen::Vector3d::Constant(sigma_t * sigma_t),
@@ -226,8 +226,8 @@ TEST(Uncertainty, IsTighterWithALoop) {
   Chain chain = chain_of(n, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
   const auto open = covariances(chain);
   // It says 0.3 m more than the chain, or nothing would tell of errors.
-  chain.relations.relative.push_back(
-      relation(0, n - 1, Pose(Eigen::Quaterniond::Identity(), {10.0 * (n - 1) + 0.3, 0, 0})));
+  chain.constraints.relative.push_back(
+      constraint(0, n - 1, Pose(Eigen::Quaterniond::Identity(), {10.0 * (n - 1) + 0.3, 0, 0})));
   const auto closed = covariances(chain);
   for (std::uint32_t k = 1; k < n; ++k) {
     const double chain_way = k, loop_way = n - k,
@@ -244,7 +244,7 @@ TEST(Uncertainty, IsMultipliedByItsFactor) {
   const auto once = solved(chain, options);
   options.uncertainty_factor = 3;
   const auto thrice = solved(chain, options);
-  // Nothing contradicts a chain, so its relations are believed: the variance factor is 1.
+  // Nothing contradicts a chain, so its constraints are believed: the variance factor is 1.
   EXPECT_EQ(variance_factor(once), 1);
   EXPECT_NEAR(once.uncertainty.absolute[3].information(0, 0), 1 / (4 * sigma_t * sigma_t), 1e-6);
   for (std::size_t k = 0; k < 4; ++k)
@@ -269,13 +269,13 @@ TEST(Uncertainty, GrowsByItsShareOfTheDistanceFromTheFirstPose) {
   }
 }
 
-/// Relations of the circle with errors `times` as large as they say.
+/// Constraints of the circle with errors `times` as large as they say.
 Chain noisy_circle(double times, std::uint32_t seed) {
   const auto g = circle(40, 2, seed);
   std::mt19937 random(seed);
   Chain chain{g.truth, {}};
   for (const auto& e : g.edges)
-    chain.relations.relative.push_back(relation(
+    chain.constraints.relative.push_back(constraint(
         e.i, e.j,
         g.truth.relative(e.i, e.j) *
             Pose(exp_rotation(gauss3(random, times * sigma_r)), gauss3(random, times * sigma_t))));
@@ -329,16 +329,16 @@ TEST(Uncertainty, OfPairsForetellsHowFarPosesAreFromTheTruth) {
   }
 }
 
-/// Beside relations that err ten times as much as the pairs, poses come out as near to the truth
+/// Beside constraints that err ten times as much as the pairs, poses come out as near to the truth
 /// whatever 'scale' says of the pairs.
-TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
+TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideConstraints) {
   double right = 0, wrong = 0, estimated = 0, without_loss = 0;
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     const auto g = circle(20, 2, seed);
     std::mt19937 random(seed);
-    Relations odometry;
+    Constraints odometry;
     for (std::uint32_t k = 0; k + 1 < g.truth.size(); ++k)
-      odometry.relative.push_back(relation(
+      odometry.relative.push_back(constraint(
           k, k + 1,
           g.truth.relative(k, k + 1) *
               Pose(exp_rotation(gauss3(random, 10 * sigma_r)), gauss3(random, 3 * sigma_t))));
@@ -362,15 +362,15 @@ TEST(EstimateVariance, FindsWhatEdgesAreWorthBesideRelations) {
   EXPECT_LT(without_loss, 1.3 * right);
 }
 
-TEST(Uncertainty, DoesNotCountARelationThatTheLossLetGo) {
+TEST(Uncertainty, DoesNotCountAConstraintThatTheLossLetGo) {
   Chain chain = noisy_circle(1, 3);
   auto options = uncertain();
   options.loss = Loss::geman_mcclure;
   const auto without = solved(chain, options);
-  auto wrong = relation(
+  auto wrong = constraint(
       3, 40, chain.poses.relative(3, 40) * Pose(Eigen::Quaterniond::Identity(), {30, 0, 0}));
   wrong.information *= 100;
-  chain.relations.relative.push_back(wrong);
+  chain.constraints.relative.push_back(wrong);
   const auto with = solved(chain, options);
   ASSERT_EQ(with.uncertainty.absolute.size(), without.uncertainty.absolute.size());
   for (std::size_t k = 0; k < with.uncertainty.absolute.size(); ++k)
@@ -383,7 +383,7 @@ TEST(Uncertainty, DoesNotCountARelationThatTheLossLetGo) {
 TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {
   Chain chain = chain_of(6, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
   EXPECT_TRUE(solved(chain, GraphOptions()).uncertainty.absolute.empty());
-  chain.relations.relative.erase(chain.relations.relative.begin() + 2);  // 0 1 2 | 3 4 5
+  chain.constraints.relative.erase(chain.constraints.relative.begin() + 2);  // 0 1 2 | 3 4 5
   std::vector<std::uint32_t> named;
   for (const auto& a : solved(chain, uncertain()).uncertainty.absolute) named.push_back(a.i);
   EXPECT_THAT(named, testing::ElementsAre(1, 2, 4, 5));
@@ -391,13 +391,13 @@ TEST(Uncertainty, IsGivenForEachPoseButTheFixedOnesAndOnlyIfAskedFor) {
 
 TEST(Uncertainty, IsNotGivenInThePlane) {
   Chain chain = chain_of(6, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
-  chain.relations.planar = true;
+  chain.constraints.planar = true;
   EXPECT_TRUE(solved(chain, uncertain()).uncertainty.absolute.empty());
 }
 
-TEST(Uncertainty, IsLeftOutWithAWarningWhereARelationLeavesAPoseFree) {
+TEST(Uncertainty, IsLeftOutWithAWarningWhereAConstraintLeavesAPoseFree) {
   Chain chain = chain_of(4, Pose(Eigen::Quaterniond::Identity(), {10, 0, 0}));
-  chain.relations.relative.back().information(5, 5) = 0;
+  chain.constraints.relative.back().information(5, 5) = 0;
   const auto result = solved(chain, uncertain());
   EXPECT_TRUE(result.uncertainty.absolute.empty());
   EXPECT_THAT(

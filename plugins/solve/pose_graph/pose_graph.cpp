@@ -19,9 +19,9 @@
 namespace plumb {
 namespace {
 
-/// A relation's or prior's term, and the robust weight it has in this round.
-struct RelationTerm {
-  RelativePose relation;
+/// A constraint's or prior's term, and the robust weight it has in this round.
+struct ConstraintTerm {
+  RelativePose constraint;
   bool robust = false;
   std::unique_ptr<ceres::CostFunction> cost;
   double root_weight = 1;
@@ -30,15 +30,15 @@ struct RelationTerm {
 /// The problem in Ceres, and all that it points into.
 class Graph {
  public:
-  Graph(const Poses& start, std::span<const MatchedEdge> edges, const Relations* relations,
+  Graph(const Poses& start, std::span<const MatchedEdge> edges, const Constraints* constraints,
         const GraphOptions& options, const ParallelLoop& parallel)
       : start_(start), options_(options), parallel_(parallel), parts_(start.size()) {
     for (const auto& pose : start.T_world_segment) blocks_.push_back(block_of(pose));
-    check(edges, relations);
+    check(edges, constraints);
     for (const auto& edge : edges) edges_.push_back(std::make_unique<EdgeState>(edge, options_));
-    if (relations) add_relations(*relations);
+    if (constraints) add_constraints(*constraints);
     add_priors();
-    build(relations);
+    build(constraints);
   }
 
   GraphResult solve() {
@@ -46,14 +46,14 @@ class Graph {
     for (int round = 0; round < rounds(); ++round) {
       ++rounds_used_;
       refresh(hardness(round));
-      if (round > 0) weigh_relations();
+      if (round > 0) weigh_constraints();
       const auto old = blocks_;
       iterate();
       if (round >= annealing_rounds() && moved_since(old) <= options_.tolerance) break;
     }
     place_parts();
     refresh(hardness(rounds()));
-    weigh_relations();
+    weigh_constraints();
     return result(before);
   }
 
@@ -61,40 +61,40 @@ class Graph {
   // ---- building
   // -------------------------------------------------------------------------------------------------------------
 
-  void check(std::span<const MatchedEdge> edges, const Relations* relations) const {
+  void check(std::span<const MatchedEdge> edges, const Constraints* constraints) const {
     const auto has = [&](std::uint32_t i, const char* what) {
       if (i >= start_.size())
         throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but there are " +
                     std::to_string(start_.size()) + " poses; wire poses of the same segments");
     };
     for (const auto& e : edges) has(e.edge.i, "an edge"), has(e.edge.j, "an edge");
-    if (!relations) return;
-    for (const auto& r : relations->relative) has(r.i, "a relation"), has(r.j, "a relation");
-    for (const auto& r : relations->absolute) has(r.i, "an absolute pose");
-    for (const auto& r : relations->points) has(r.i, "a control point");
+    if (!constraints) return;
+    for (const auto& r : constraints->relative) has(r.i, "a constraint"), has(r.j, "a constraint");
+    for (const auto& r : constraints->absolute) has(r.i, "an absolute pose");
+    for (const auto& r : constraints->points) has(r.i, "a control point");
   }
 
-  void add_relations(const Relations& relations) {
-    planar_ = relations.planar;
-    named_.assign(start_.size() + 1, 0);  // how many poses before each one a relation names
-    for (const auto& relation : relations.relative)
-      named_[relation.i + 1] = named_[relation.j + 1] = 1;
+  void add_constraints(const Constraints& constraints) {
+    planar_ = constraints.planar;
+    named_.assign(start_.size() + 1, 0);  // how many poses before each one a constraint names
+    for (const auto& constraint : constraints.relative)
+      named_[constraint.i + 1] = named_[constraint.j + 1] = 1;
     std::partial_sum(named_.begin(), named_.end(), named_.begin());
-    for (const auto& relation : relations.relative) {
-      auto term = std::make_unique<RelationTerm>();
-      term->relation = relation;
-      term->robust = !sequential(relation);
-      if (options_.relation_error == RelationError::chordal)
-        term->cost = std::make_unique<ChordalCost>(relation, planar_, &term->root_weight);
+    for (const auto& constraint : constraints.relative) {
+      auto term = std::make_unique<ConstraintTerm>();
+      term->constraint = constraint;
+      term->robust = !sequential(constraint);
+      if (options_.constraint_error == ConstraintError::chordal)
+        term->cost = std::make_unique<ChordalCost>(constraint, planar_, &term->root_weight);
       else
-        term->cost = std::make_unique<G2oCost>(relation, &term->root_weight);
+        term->cost = std::make_unique<G2oCost>(constraint, &term->root_weight);
       terms_.push_back(std::move(term));
     }
-    relations_ = terms_.size();
+    constraints_ = terms_.size();
   }
 
-  /// From a pose to the next that any relation names: between them lie at most poses that were left
-  /// out.
+  /// From a pose to the next that any constraint names: between them lie at most poses that were
+  /// left out.
   bool sequential(const RelativePose& r) const {
     return r.j > r.i && named_[r.j] == named_[r.i + 1];
   }
@@ -109,20 +109,20 @@ class Graph {
   /// The shape that the poses came with, between neighbours: q.vec is half the rotation, hence
   /// the 4.
   void add_priors() {
-    if (!options_.odometry_translation || !options_.odometry_rotation) return;
+    if (!options_.odometry_translation_sigma || !options_.odometry_rotation_sigma) return;
     for (std::uint32_t k = 0; k + 1 < start_.size(); ++k) {
-      auto term = std::make_unique<RelationTerm>();
-      term->relation = {k, k + 1, start_.relative(k, k + 1), Matrix6d::Zero()};
-      term->relation.information.diagonal().head<3>().setConstant(
-          std::pow(*options_.odometry_translation, -2));
-      term->relation.information.diagonal().tail<3>().setConstant(
-          4 * std::pow(*options_.odometry_rotation, -2));
-      term->cost = std::make_unique<G2oCost>(term->relation, &term->root_weight);
+      auto term = std::make_unique<ConstraintTerm>();
+      term->constraint = {k, k + 1, start_.relative(k, k + 1), Matrix6d::Zero()};
+      term->constraint.information.diagonal().head<3>().setConstant(
+          std::pow(*options_.odometry_translation_sigma, -2));
+      term->constraint.information.diagonal().tail<3>().setConstant(
+          4 * std::pow(*options_.odometry_rotation_sigma, -2));
+      term->cost = std::make_unique<G2oCost>(term->constraint, &term->root_weight);
       terms_.push_back(std::move(term));
     }
   }
 
-  void build(const Relations* relations) {
+  void build(const Constraints* constraints) {
     ceres::Problem::Options ownership;
     ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -142,17 +142,17 @@ class Graph {
       parts_.join(i, j);
     }
     for (const auto& term : terms_) {
-      const auto [i, j] = std::pair(term->relation.i, term->relation.j);
+      const auto [i, j] = std::pair(term->constraint.i, term->constraint.j);
       if (i == j) continue;
       problem_->AddResidualBlock(term->cost.get(), nullptr, blocks_[i].data(), blocks_[j].data());
       parts_.join(i, j);
     }
-    if (relations) {
-      for (const auto& a : relations->absolute) {
+    if (constraints) {
+      for (const auto& a : constraints->absolute) {
         add(std::make_unique<AbsolutePoseCost>(a), a.i);
         held[a.i] = true;
       }
-      for (const auto& p : relations->points) {
+      for (const auto& p : constraints->points) {
         add(std::make_unique<AbsolutePointCost>(p), p.i);
         held[p.i] = true;
       }
@@ -171,10 +171,10 @@ class Graph {
     return options_.loss != Loss::none || options_.edge_loss != Loss::none ||
            options_.estimate_variance;
   }
-  int rounds() const { return reweighted() ? options_.rounds : 1; }
+  int rounds() const { return reweighted() ? options_.max_rounds : 1; }
   /// Two thirds of the rounds shrink the scales; the rest have the final ones.
   int annealing_rounds() const {
-    return reweighted() && options_.anneal_from ? 2 * options_.rounds / 3 : 0;
+    return reweighted() && options_.anneal_from ? 2 * options_.max_rounds / 3 : 0;
   }
   Hardness hardness(int round) const {
     double factor = 1;
@@ -190,7 +190,7 @@ class Graph {
   void refresh(const Hardness& hardness) {
     parallel_(edges_.size(),
               [&](std::size_t k) { edges_[k]->refresh(T_j_i(edges_[k]->edge()), hardness); });
-    const double scale = options_.relation_scale * hardness.scale / options_.scale;
+    const double scale = options_.constraint_scale * hardness.scale / options_.scale;
     for (auto& term : terms_) {
       if (!term->robust) continue;
       term->root_weight = 1;
@@ -200,7 +200,7 @@ class Graph {
 
   /// Variance component estimation: an edge's pairs share errors, so what an edge is worth beside
   /// the odometry shows in how far the edges disagree.
-  void weigh_relations() {
+  void weigh_constraints() {
     if (!options_.estimate_variance || edges_.empty()) return;
     const double root = std::sqrt(variance_factor()) * options_.uncertainty_factor;
     for (auto& term : terms_)
@@ -208,8 +208,8 @@ class Graph {
   }
 
   /// The term's squared residual under the present poses, times its present weight.
-  double squared(const RelationTerm& term) const {
-    const double* poses[2] = {blocks_[term.relation.i].data(), blocks_[term.relation.j].data()};
+  double squared(const ConstraintTerm& term) const {
+    const double* poses[2] = {blocks_[term.constraint.i].data(), blocks_[term.constraint.j].data()};
     Eigen::VectorXd residual(term.cost->num_residuals());
     term.cost->Evaluate(poses, residual.data(), nullptr);
     return residual.squaredNorm();
@@ -217,7 +217,7 @@ class Graph {
 
   void iterate() {
     ceres::Solver::Options solver;
-    solver.max_num_iterations = options_.iterations;
+    solver.max_num_iterations = options_.max_iterations;
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.num_threads = 1;  // the same sums in the same order
@@ -271,7 +271,7 @@ class Graph {
               [&](std::size_t k) { shares[k] = edges_[k]->cost(T_j_i(edges_[k]->edge())); });
     double sum = 0;
     for (const double share : shares) sum += share;
-    const double scale2 = options_.relation_scale * options_.relation_scale;
+    const double scale2 = options_.constraint_scale * options_.constraint_scale;
     for (auto& term : terms_) {
       const double kept = std::exchange(term->root_weight, 1.0);  // with the information as given
       const double s = squared(*term);
@@ -302,8 +302,8 @@ class Graph {
       result.poses.T_world_segment.push_back(pose(k));
     Verdict verdict(start_.size());
     for (const auto& edge : edges_) verdict.add(*edge);
-    for (std::size_t k = 0; k < relations_; ++k) {
-      const auto& r = terms_[k]->relation;
+    for (std::size_t k = 0; k < constraints_; ++k) {
+      const auto& r = terms_[k]->constraint;
       if (!edges_.empty() &&
           !terms_[k]
                ->robust) {  // beside matches a chain is what the odometry knows, no edge of its own
@@ -314,8 +314,8 @@ class Graph {
       verdict.add(r, !terms_[k]->robust, error.translation.norm(),
                   terms_[k]->root_weight * terms_[k]->root_weight);
     }
-    if (terms_.size() > relations_) verdict.joined_by_prior();
-    if (edges_.empty() && relations_ > 0) verdict.left_out(unnamed());
+    if (terms_.size() > constraints_) verdict.joined_by_prior();
+    if (edges_.empty() && constraints_ > 0) verdict.left_out(unnamed());
     result.metrics = verdict.metrics(before, cost(), rounds_used_, iterations_used_);
     result.warnings = verdict.warnings(parts_.list());
     if (options_.uncertainty && !planar_) add_uncertainty(result);
@@ -325,7 +325,7 @@ class Graph {
   // ---- uncertainty
   // ----------------------------------------------------------------------------------------------------------
 
-  /// The mean cost, by degree of freedom, that edges and relations have above the best that each
+  /// The mean cost, by degree of freedom, that edges and constraints have above the best that each
   /// could have alone: 1 where they disagree as much as their weights say.
   double variance_factor() const {
     std::vector<double> above(edges_.size(), 0);
@@ -365,7 +365,7 @@ class Graph {
         variance_factor() * options_.uncertainty_factor * options_.uncertainty_factor;
     for (std::uint32_t k = 0; k < blocks_.size(); ++k) {
       if (!covariances[k]) continue;
-      // From moves (v in the world, w in the pose's axes) to what a relation of g2o counts: [t;
+      // From moves (v in the world, w in the pose's axes) to what a constraint of g2o counts: [t;
       // q.vec] in the pose's axes.
       Matrix6d change = Matrix6d::Zero();
       change.topLeftCorner<3, 3>() = pose(k).matrix().transpose();
@@ -390,8 +390,8 @@ class Graph {
   bool planar_ = false;
   std::vector<PoseBlock> blocks_;
   std::vector<std::unique_ptr<EdgeState>> edges_;
-  std::vector<std::unique_ptr<RelationTerm>> terms_;  ///< relations first, then priors
-  std::size_t relations_ = 0;
+  std::vector<std::unique_ptr<ConstraintTerm>> terms_;  ///< constraints first, then priors
+  std::size_t constraints_ = 0;
   std::vector<std::uint32_t> named_;
   std::vector<std::unique_ptr<ceres::CostFunction>> owned_;
   std::unique_ptr<PoseManifold> manifold_;
@@ -403,18 +403,19 @@ class Graph {
 }  // namespace
 
 std::string GraphOptions::check() const {
-  if (odometry_translation.has_value() != odometry_rotation.has_value())
-    return "odometry_translation and odometry_rotation go together; give both or neither";
+  if (odometry_translation_sigma.has_value() != odometry_rotation_sigma.has_value())
+    return "odometry_translation_sigma and odometry_rotation_sigma go together; give both or "
+           "neither";
   if (anneal_from && *anneal_from < scale)
     return "anneal_from must not be smaller than scale, to which it shrinks";
   return "";
 }
 
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
-                             const Relations* relations, const GraphOptions& options,
+                             const Constraints* constraints, const GraphOptions& options,
                              const ParallelLoop& parallel) {
   if (start.size() == 0) throw Error("there are no poses to solve for");
-  return Graph(start, edges, relations, options, parallel).solve();
+  return Graph(start, edges, constraints, options, parallel).solve();
 }
 
 }  // namespace plumb

@@ -19,23 +19,23 @@ struct GraphOptions {
                        ///< standard deviation
   std::optional<double>
       anneal_from;  ///< [m] scale of the first round; it shrinks geometrically to `scale`
-  bool hold_sequential =
+  bool sequential_huber =
       true;  ///< pairs of sequential edges take huber where `loss` is cauchy or geman_mcclure
   Loss edge_loss =
       Loss::none;           ///< of each edge that is not sequential, on top of its pairs' losses
   double edge_scale = 1.0;  ///< [m] rms of an edge's pairs at which edge_loss begins to let go;
                             ///< annealed like `scale`
-  std::optional<double> edge_weight =
+  std::optional<double> max_edge_weight =
       30;  ///< most that all pairs of an edge weigh together, in pairs; none: every pair counts
-  std::optional<double> odometry_translation,
-      odometry_rotation;  ///< [m], [rad]: see solve_pose_graph
-  RelationError relation_error = RelationError::g2o;
-  double relation_scale =
-      3;  ///< standard deviations at which the loss lets go of a relation that is not sequential
-  int rounds = 30;                 ///< at most: weights refreshed, solved again
-  int iterations = 100;            ///< of Levenberg-Marquardt in each round, at most
-  bool estimate_variance = false;  ///< whether edges count, beside sequential relations, by how far
-                                   ///< they disagree with each other
+  std::optional<double> odometry_translation_sigma,
+      odometry_rotation_sigma;  ///< [m], [rad]: see solve_pose_graph
+  ConstraintError constraint_error = ConstraintError::g2o;
+  double constraint_scale =
+      3;  ///< standard deviations at which the loss lets go of a constraint that is not sequential
+  int max_rounds = 30;             ///< at most: weights refreshed, solved again
+  int max_iterations = 100;        ///< of Levenberg-Marquardt in each round, at most
+  bool estimate_variance = false;  ///< whether edges count, beside sequential constraints, by how
+                                   ///< far they disagree with each other
   bool uncertainty = false;        ///< whether the poses' covariances are computed
   double uncertainty_per_metre =
       4e-4;  ///< [m/m] deviation of a position that no disagreement shows, of its distance from the
@@ -58,8 +58,8 @@ struct GraphResult {
   Poses poses;
   Metrics metrics;
   std::vector<std::string> warnings;  ///< sentences: what fell apart
-  Relations uncertainty;  ///< if asked for: each pose but the fixed ones as an absolute pose with
-                          ///< its marginal information
+  Constraints uncertainty;  ///< if asked for: each pose but the fixed ones as an absolute pose with
+                            ///< its marginal information
 };
 
 /// Calls body(0 .. n-1), in any order, on any threads.
@@ -69,14 +69,14 @@ using ParallelLoop =
 /// Poses T_k that minimise, starting from `start`,
 ///   sum over edges, over pairs   w rho(|T_i p - T_j q|^2 / scale^2)       (or the distance to the
 ///   plane at q)
-/// + sum over relations           rho(e'Omega e / relation_scale^2) relation_scale^2
-/// + sum over consecutive poses   |v / odometry_translation|^2 + |w / odometry_rotation|^2,   if
-/// both are given, v and w being what T_k^-1 T_k+1 differs from what it is in `start`. Sequential
-/// relations (no pose between i and j is named by any relation) have no loss. It is solved in
-/// rounds: weights rho' from the present residuals, all pairs summed to one form per edge
-/// (pair_moments.hpp), Levenberg-Marquardt.
+/// + sum over constraints           rho(e'Omega e / constraint_scale^2) constraint_scale^2
+/// + sum over consecutive poses   |v / odometry_translation_sigma|^2 + |w /
+/// odometry_rotation_sigma|^2,   if both are given, v and w being what T_k^-1 T_k+1 differs from
+/// what it is in `start`. Sequential constraints (no pose between i and j is named by any
+/// constraint) have no loss. It is solved in rounds: weights rho' from the present residuals, all
+/// pairs summed to one form per edge (pair_moments.hpp), Levenberg-Marquardt.
 ///
-/// `estimate_variance`: after each round sequential relations' information is multiplied by the
+/// `estimate_variance`: after each round sequential constraints' information is multiplied by the
 /// edges' variance factor (below) times uncertainty_factor^2, as if the edges' pairs had the
 /// deviation that their disagreement shows instead of `scale`.
 ///
@@ -86,11 +86,11 @@ using ParallelLoop =
 /// for each pose relative to the fixed first one, times a variance factor: the cost that the edges
 /// have above their own best motions, by the degrees of freedom that the edges have more than the
 /// poses. It is what the edges' disagreement with each other tells of their errors. Only in space.
-/// The result does not depend on how `parallel` runs. Throws Error: an edge or relation names a
+/// The result does not depend on how `parallel` runs. Throws Error: an edge or constraint names a
 /// pose that does not exist, pairs with planes but without normals, an information matrix with a
 /// negative eigenvalue.
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
-                             const Relations* relations, const GraphOptions& options,
+                             const Constraints* constraints, const GraphOptions& options,
                              const ParallelLoop& parallel);
 
 }  // namespace plumb

@@ -77,7 +77,8 @@ TEST(PoseGraph, LetsGoOfPlantedFalseLoopsAndNamesThem) {
     EXPECT_LT(ate(result.poses, g.truth), 1.1 * clean + 1e-3) << seed;
     for (std::size_t k = 0; k < g.edges.size(); ++k) {
       const bool is_planted = std::find(planted.begin(), planted.end(), k) != planted.end();
-      EXPECT_EQ(result.metrics.edges[k].fate, is_planted ? "rejected" : "kept") << seed << " " << k;
+      EXPECT_EQ(result.metrics.edges[k].status, is_planted ? "rejected" : "accepted")
+          << seed << " " << k;
     }
   }
 }
@@ -87,7 +88,7 @@ TEST(PoseGraph, SurvivesLoopsOfWhichHalfAreMostlyWrong) {
     auto g = circle(40, 2, seed);
     plant_false_loops(g, 2, seed);
     auto options = robust();
-    options.edge_weight = 30;
+    options.max_edge_weight = 30;
     EXPECT_LT(ate(solve(g, options).poses, g.truth), 0.15) << seed;
   }
 }
@@ -101,7 +102,7 @@ TEST(PoseGraph, AnEdgesOwnLossRejectsItAsAWhole) {
   options.edge_scale = 0.5;
   const auto result = solve(g, options);
   EXPECT_LT(ate(result.poses, g.truth), 0.05);
-  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].fate, "rejected");
+  for (const auto k : planted) EXPECT_EQ(result.metrics.edges[k].status, "rejected");
 }
 
 TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
@@ -110,7 +111,7 @@ TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
   const auto result = solve(g, robust());
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_THAT(result.warnings[0], testing::HasSubstr("2 parts (segments 0-4; 5-9)"));
-  EXPECT_EQ(result.metrics.edges[4].fate, "no matches");
+  EXPECT_EQ(result.metrics.edges[4].status, "no matches");
   // The second part keeps its place after segment 4 and is right within itself.
   const Pose kept = g.drifted.relative(4, 5), now = result.poses.relative(4, 5);
   EXPECT_LT((kept.translation - now.translation).norm(), 1e-9);
@@ -118,8 +119,8 @@ TEST(PoseGraph, SaysPartByPartWhereItFallsApart) {
             0.1);
   // With the odometry's shape as a prior it is one graph.
   auto options = robust();
-  options.odometry_translation = 0.1;
-  options.odometry_rotation = 0.01;
+  options.odometry_translation_sigma = 0.1;
+  options.odometry_rotation_sigma = 0.01;
   EXPECT_TRUE(solve(g, options).warnings.empty());
 }
 
@@ -131,8 +132,8 @@ TEST(PoseGraph, TheOdometryHoldsTheShapeWhereSequentialPairsAreFewAndWrong) {
       g.matches[k] = pairs_of(g.edges[k], g.truth, 4, 2, 0, random);
   auto options = robust();
   const double without = ate(solve(g, options).poses, g.truth);
-  options.odometry_translation = 0.05;
-  options.odometry_rotation = 0.003;
+  options.odometry_translation_sigma = 0.05;
+  options.odometry_rotation_sigma = 0.003;
   const double with = ate(solve(g, options).poses, g.truth);
   EXPECT_LT(with, 0.5 * without);
 }

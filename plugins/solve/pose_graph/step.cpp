@@ -7,125 +7,125 @@ namespace {
 const std::vector<ChoiceOf<Loss>> losses = {
     {"none", Loss::none, "least squares"},
     {"huber", Loss::huber,
-     "weight 1, beyond the scale falling with 1 / r: large residuals still pull"},
-    {"cauchy", Loss::cauchy, "weight falling with 1 / r^2"},
-    {"geman_mcclure", Loss::geman_mcclure,
-     "weight falling with 1 / r^4: lets go of what is wrong"}};
+     "weight 1, beyond the scale decreasing with 1 / r: large residuals still pull"},
+    {"cauchy", Loss::cauchy, "weight decreasing with 1 / r^2"},
+    {"geman_mcclure", Loss::geman_mcclure, "weight decreasing with 1 / r^4: rejects outliers"}};
 
 struct SolvePoseGraph : WholeStep {
   struct In {
     One<Poses> poses;
     Each<Matches> matches;
-    Several<Relations> relations;
+    Several<Constraints> constraints;
     One<Metrics> scale;
   };
   struct Out {
     Poses poses;
     Metrics metrics;
-    Relations uncertainty;
+    Constraints uncertainty;
   };
   using Params = GraphOptions;
 
   static void describe(Declaration<SolvePoseGraph>& is) {
     is.name("solve.pose_graph")
         .version(2)
-        .summary("Moves all segments so that the pairs of all edges come together.")
+        .summary("Optimizes the poses of all segments so that matches and constraints agree.")
         .source("[Tang2024] 2.1, 2.4.1");
-    is.input("poses", &In::poses, "where the segments are; the solver starts here");
+    is.input("poses", &In::poses, "initial poses of the segments");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
-    is.optional_input("relations", &In::relations,
-                      "measured relative and absolute poses and points; several are joined");
+    is.optional_input(
+        "constraints", &In::constraints,
+        "measured relative poses, absolute poses and points; several lists are concatenated");
     is.scale(&In::scale);
-    is.output("poses", &Out::poses, "where the segments are after solving");
-    is.output("metrics", &Out::metrics, "cost, residual, and what became of each edge");
+    is.output("poses", &Out::poses, "optimized poses of the segments");
+    is.output("metrics", &Out::metrics, "cost, residual, and the status of each edge");
     is.output("uncertainty", &Out::uncertainty,
-              "with 'uncertainty: true', how well each pose is known beside the first: absolute "
-              "poses with their information");
+              "with 'uncertainty: true', the uncertainty of each pose relative to the first: "
+              "absolute poses with their information");
     is.choice("loss", &Params::loss, losses)
-        .doc("how a pair's squared residual counts")
+        .doc("robust loss of a pair's squared residual")
         .source("[Tang2024] 2.1");
     is.param("scale", &Params::scale)
         .unit("m")
         .range(1e-4, 1000)
         .doc(
-            "residual of a pair at which the loss begins to let go; also a pair's standard "
-            "deviation beside relations and odometry");
+            "residual of a pair at which the loss begins to down-weight; also the standard "
+            "deviation of a pair, relative to constraints and odometry");
     is.param("anneal_from", &Params::anneal_from)
         .unit("m")
         .range(1e-4, 1e6)
         .doc(
-            "scale of the first round, shrinking geometrically to 'scale': lets wrong edges go one "
-            "by one");
-    is.param("hold_sequential", &Params::hold_sequential)
+            "scale of the first round, which shrinks geometrically to 'scale', so that wrong edges "
+            "are rejected one by one");
+    is.param("sequential_huber", &Params::sequential_huber)
         .doc(
-            "sequential edges keep pulling: with cauchy and geman_mcclure their pairs take huber "
-            "instead");
+            "with cauchy and geman_mcclure the pairs of sequential edges have the huber loss "
+            "instead, so that they are never rejected");
     is.choice("edge_loss", &Params::edge_loss, losses)
-        .doc("how the rms of an edge that is not sequential counts, on top of its pairs' losses");
+        .doc(
+            "robust loss of the RMS residual of an edge that is not sequential, in addition to its "
+            "pairs' losses");
     is.param("edge_scale", &Params::edge_scale)
         .unit("m")
         .range(1e-4, 1000)
-        .doc("rms of an edge's pairs at which edge_loss begins to let go; annealed like 'scale'");
-    is.param("edge_weight", &Params::edge_weight)
-        .range(1, 1e9)
         .doc(
-            "the most that all pairs of an edge weigh together, in pairs; none: every pair counts");
-    is.param("odometry_translation", &Params::odometry_translation)
+            "RMS residual of an edge at which edge_loss begins to down-weight; annealed like "
+            "'scale'");
+    is.param("max_edge_weight", &Params::max_edge_weight)
+        .range(1, 1e9)
+        .doc("total weight of all pairs of an edge, in pairs; none: every pair counts");
+    is.param("odometry_translation_sigma", &Params::odometry_translation_sigma)
         .unit("m")
         .range(1e-6, 1e6)
         .doc(
-            "standard deviation of the way from each segment to the next, as the poses come; none: "
-            "free");
-    is.param("odometry_rotation", &Params::odometry_rotation)
+            "standard deviation of the translation between consecutive segments in the initial "
+            "poses; none: no prior");
+    is.param("odometry_rotation_sigma", &Params::odometry_rotation_sigma)
         .unit("rad")
-        .range(1e-8, 10)
+        .range(1e-6 * deg, 360 * deg)
         .doc(
-            "standard deviation of the turn from each segment to the next, as the poses come; "
-            "none: free");
-    is.choice("relation_error", &Params::relation_error,
-              {{"g2o", RelationError::g2o, "[t; q.vec] of what is left, as g2o has it"},
-               {"chordal", RelationError::chordal,
-                "difference of rotation matrices, as SE-Sync has it"}})
-        .doc("how a relation is compared with the poses");
-    is.param("relation_scale", &Params::relation_scale)
+            "standard deviation of the rotation between consecutive segments in the initial poses; "
+            "none: no prior");
+    is.choice(
+          "constraint_error", &Params::constraint_error,
+          {{"g2o", ConstraintError::g2o, "[t; q.vec] of the residual pose, as in g2o"},
+           {"chordal", ConstraintError::chordal, "difference of rotation matrices, as in SE-Sync"}})
+        .doc("error function of a relative pose");
+    is.param("constraint_scale", &Params::constraint_scale)
         .range(0.01, 1e6)
         .doc(
-            "standard deviations at which the loss begins to let go of a relation that is not "
+            "standard deviations at which the loss begins to down-weight a constraint that is not "
             "sequential");
-    is.param("rounds", &Params::rounds)
+    is.param("max_rounds", &Params::max_rounds)
         .range(1, 1000)
-        .doc(
-            "the most times that weights are refreshed; with anneal_from two thirds of them shrink "
-            "the scale");
-    is.param("iterations", &Params::iterations)
+        .doc("rounds of reweighting; with anneal_from two thirds of them shrink the scale");
+    is.param("max_iterations", &Params::max_iterations)
         .range(1, 10000)
-        .doc("the most iterations of Levenberg-Marquardt in one round");
+        .doc("iterations of Levenberg-Marquardt in one round");
     is.param("estimate_variance", &Params::estimate_variance)
         .doc(
-            "edges count, beside sequential relations, by how far they disagree with each other "
-            "instead of by 'scale' alone");
+            "weight edges relative to sequential constraints by their mutual disagreement "
+            "(variance component estimation) instead of by 'scale' alone");
     is.param("uncertainty", &Params::uncertainty)
-        .doc("compute how well each pose is known; only in space");
+        .doc("compute the marginal covariances of the poses; 3-D only");
     is.param("uncertainty_per_metre", &Params::uncertainty_per_metre)
         .unit("%")
         .range(0, 1)
         .doc(
-            "standard deviation of a position, of its distance from the first, on top: a bias that "
-            "all registrations share shows in no disagreement");
+            "standard deviation added to a position, as a share of its distance from the first: a "
+            "bias common to all registrations causes no disagreement");
     is.param("uncertainty_factor", &Params::uncertainty_factor)
         .range(0.01, 1000)
         .doc(
-            "standard deviations are multiplied by it, since edges that share a segment share its "
-            "errors");
+            "factor on the standard deviations, since edges that share a segment share its errors");
     is.param("tolerance", &Params::tolerance)
         .unit("m")
         .range(0, 1)
-        .doc("rounds end when no pose moves more than this, a rotation counting at 10 m");
+        .doc("rounds end when no pose moves by more than this, a rotation taken at 10 m");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    if (!in.matches && in.relations.empty())
-      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'relations' or both");
+    if (!in.matches && in.constraints.empty())
+      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'constraints' or both");
     std::vector<One<Matches>> held;
     std::vector<MatchedEdge> edges;
     if (in.matches) {
@@ -134,9 +134,9 @@ struct SolvePoseGraph : WholeStep {
       for (std::size_t k = 0; k < held.size(); ++k)
         edges.push_back({in.matches.edges().list[k], &*held[k]});
     }
-    const Relations relations = joined(in.relations);
+    const Constraints constraints = joined(in.constraints);
     auto result =
-        solve_pose_graph(*in.poses, edges, in.relations.empty() ? nullptr : &relations, params,
+        solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
                          [&](std::size_t n, const auto& body) { context.parallel(n, body); });
     for (const auto& warning : result.warnings) context.warn(warning);
     return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
@@ -144,14 +144,14 @@ struct SolvePoseGraph : WholeStep {
 
  private:
   /// One graph of all; those that hold nothing say nothing of the plane.
-  static Relations joined(const Several<Relations>& several) {
-    Relations all;
-    const Labelled<Relations>* first = nullptr;
+  static Constraints joined(const Several<Constraints>& several) {
+    Constraints all;
+    const Labelled<Constraints>* first = nullptr;
     for (const auto& one : several) {
-      const Relations& r = *one.value;
+      const Constraints& r = *one.value;
       if (r.relative.empty() && r.absolute.empty() && r.points.empty()) continue;
       if (first && r.planar != all.planar)
-        throw Error("relations '" + (r.planar ? one : *first).label + "' lie in the plane and '" +
+        throw Error("constraints '" + (r.planar ? one : *first).label + "' lie in the plane and '" +
                     (r.planar ? *first : one).label + "' do not; they cannot be solved together");
       if (!first) all.planar = r.planar;
       first = first ? first : &one;

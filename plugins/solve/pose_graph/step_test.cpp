@@ -62,17 +62,18 @@ TEST(SolvePoseGraph, RefusesToSolveNothing) {
   EXPECT_THROW(run(circle(6, 1, 1), {}, context, false), Error);
 }
 
-Relations planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs,
-                       bool planar = true) {
-  Relations relations;
-  relations.planar = planar;
+Constraints planar_chain(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs,
+                         bool planar = true) {
+  Constraints constraints;
+  constraints.planar = planar;
   for (const auto& [i, j] : pairs)
-    relations.relative.push_back({i, j, Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}),
-                                  100 * Matrix6d::Identity()});
-  return relations;
+    constraints.relative.push_back({i, j,
+                                    Pose(Eigen::Quaterniond::Identity(), {1.0 * (j - i), 0, 0}),
+                                    100 * Matrix6d::Identity()});
+  return constraints;
 }
 
-Poses solve(const std::vector<Relations>& relations, const ParameterValues& values,
+Poses solve(const std::vector<Constraints>& constraints, const ParameterValues& values,
             TestContext& context, Metrics* metrics = nullptr) {
   PortInput inputs[4];
   Poses start;
@@ -81,9 +82,9 @@ Poses solve(const std::vector<Relations>& relations, const ParameterValues& valu
                                        Eigen::Vector3d(1.1 * k, 0, 0));
   inputs[0].wired = inputs[2].wired = true;
   inputs[0].one = any_value(start);
-  for (std::size_t k = 0; k < relations.size(); ++k)
+  for (std::size_t k = 0; k < constraints.size(); ++k)
     inputs[2].several.emplace_back(std::string(1, static_cast<char>('a' + k)),
-                                   any_value(relations[k]));
+                                   any_value(constraints[k]));
   PortOutput outputs[3];
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters(values).get(), inputs, outputs, context);
@@ -91,11 +92,11 @@ Poses solve(const std::vector<Relations>& relations, const ParameterValues& valu
   return *outputs[0].one.as<Poses>();
 }
 
-TEST(SolvePoseGraph, JoinsSeveralRelations) {
+TEST(SolvePoseGraph, JoinsSeveralConstraints) {
   TestContext context;
   Metrics metrics;
   const auto poses =
-      solve({planar_chain({{0, 1}, {1, 2}}), Relations(), planar_chain({{2, 3}, {3, 4}})}, {},
+      solve({planar_chain({{0, 1}, {1, 2}}), Constraints(), planar_chain({{2, 3}, {3, 4}})}, {},
             context, &metrics);
   EXPECT_NEAR(poses.T_world_segment[4].translation.x(), 4, 1e-9);
   EXPECT_EQ(metrics.edges.size(), 4u);
@@ -109,32 +110,33 @@ TEST(SolvePoseGraph, RefusesToMixThePlaneWithSpace) {
     FAIL() << "was not refused";
   } catch (const Error& e) {
     EXPECT_STREQ(e.what(),
-                 "relations 'a' lie in the plane and 'b' do not; they cannot be solved together");
+                 "constraints 'a' lie in the plane and 'b' do not; they cannot be solved together");
   }
 }
 
-TEST(SolvePoseGraph, TakesARelationOverALeftOutPoseForSequential) {
+TEST(SolvePoseGraph, TakesAConstraintOverALeftOutPoseForSequential) {
   TestContext context;
   Metrics metrics;
   // 1 was dropped: 0-2 has no loss, so that the wrong 0-4 does not win against it.
-  auto relations = planar_chain({{0, 2}, {2, 3}, {3, 4}, {0, 4}});
-  relations.relative[3].T_i_j.translation.x() = 9;
+  auto constraints = planar_chain({{0, 2}, {2, 3}, {3, 4}, {0, 4}});
+  constraints.relative[3].T_i_j.translation.x() = 9;
   const auto poses =
-      solve({relations}, {{"loss", std::string("geman_mcclure")}}, context, &metrics);
+      solve({constraints}, {{"loss", std::string("geman_mcclure")}}, context, &metrics);
   EXPECT_NEAR(poses.T_world_segment[4].translation.x(), 4, 0.01);
   EXPECT_NEAR(poses.T_world_segment[1].translation.x(), 1.1, 1e-9);
   EXPECT_EQ(metrics.edges[0].kind, EdgeKind::sequential);
   EXPECT_EQ(metrics.edges[3].kind, EdgeKind::loop);
-  EXPECT_EQ(metrics.edges[3].fate, "rejected");
+  EXPECT_EQ(metrics.edges[3].status, "rejected");
   EXPECT_TRUE(context.warnings.empty());
-  EXPECT_THAT(metrics.notes,
-              testing::ElementsAre(
-                  "segments 1 are named by no relation and keep their place after the one before"));
+  EXPECT_THAT(
+      metrics.notes,
+      testing::ElementsAre(
+          "segments 1 are named by no constraint and keep their place after the one before"));
 }
 
 TEST(SolvePoseGraph, RefusesParametersThatDoNotGoTogether) {
   const Step& step = *plumb_module()->steps[0];
-  EXPECT_THROW(step.parameters({{"odometry_translation", 0.1}}), Error);
+  EXPECT_THROW(step.parameters({{"odometry_translation_sigma", 0.1}}), Error);
   EXPECT_THROW(step.parameters({{"scale", 1.0}, {"anneal_from", 0.5}}), Error);
 }
 

@@ -4,8 +4,8 @@
 
 namespace plumb {
 
-const char* fate_of(double mean_weight) {
-  return mean_weight >= kept_from        ? "kept"
+const char* status_of(double mean_weight) {
+  return mean_weight >= accepted_from    ? "accepted"
          : mean_weight >= rejected_under ? "down-weighted"
                                          : "rejected";
 }
@@ -17,7 +17,7 @@ void Verdict::add(const EdgeState& state) {
   if (pairs > 0) {
     record.residual = state.rms();
     record.weight = state.mean_weight();
-    record.fate = fate_of(record.weight);
+    record.status = status_of(record.weight);
     pairs_ += pairs;
     squares_ += state.weighted_squares();
     weights_ += state.weight_sum();
@@ -29,16 +29,16 @@ void Verdict::add(const EdgeState& state) {
 
 void Verdict::add(const RelativePose& r, bool sequential, double residual, double weight) {
   const auto kind = sequential ? EdgeKind::sequential : EdgeKind::loop;
-  records_.push_back({r.i, r.j, kind, 1, 1, residual, weight, fate_of(weight)});
+  records_.push_back({r.i, r.j, kind, 1, 1, residual, weight, status_of(weight)});
   squares_ += weight * residual * residual;
   weights_ += weight;
-  relations_ = true;
+  constraints_ = true;
 }
 
 Metrics Verdict::metrics(double cost_before, double cost_after, int rounds, int iterations) {
-  const auto with_fate = [&](std::string_view fate) {
+  const auto with_status = [&](std::string_view status) {
     return static_cast<double>(std::count_if(records_.begin(), records_.end(),
-                                             [&](const auto& r) { return r.fate == fate; }));
+                                             [&](const auto& r) { return r.status == status; }));
   };
   Metrics metrics;
   metrics.add("residual", weights_ > 0 ? std::sqrt(squares_ / weights_) : 0, "m")
@@ -46,10 +46,10 @@ Metrics Verdict::metrics(double cost_before, double cost_after, int rounds, int 
       .add("cost_after", cost_after, "")
       .add("pairs", static_cast<double>(pairs_), "")
       .add("edges", static_cast<double>(records_.size()), "")
-      .add("edges_kept", with_fate("kept"), "")
-      .add("edges_down_weighted", with_fate("down-weighted"), "")
-      .add("edges_rejected", with_fate("rejected"), "")
-      .add("edges_without_matches", with_fate("no matches"), "")
+      .add("edges_kept", with_status("accepted"), "")
+      .add("edges_down_weighted", with_status("down-weighted"), "")
+      .add("edges_rejected", with_status("rejected"), "")
+      .add("edges_without_matches", with_status("no matches"), "")
       .add("rounds", rounds, "")
       .add("iterations", iterations, "");
   metrics.notes = notes();
@@ -67,12 +67,12 @@ std::vector<std::string> Verdict::notes() const {
   std::vector<std::string> notes;
   Parts firm(support_.size());
   for (const auto& r : records_)
-    if (r.fate == "kept" || r.fate == "down-weighted") firm.join(r.i, r.j);
+    if (r.status == "accepted" || r.status == "down-weighted") firm.join(r.i, r.j);
   auto parts = firm.list();
   drop_left_out(parts);
   if (!left_out_.empty())
     notes.push_back("segments " + runs_of(left_out_) +
-                    " are named by no relation and keep their place after the one before");
+                    " are named by no constraint and keep their place after the one before");
   if (prior_ && parts.size() > 1) {
     std::string sentence = "the graph falls into " + std::to_string(parts.size()) +
                            " parts that only the odometry joins (segments ";
@@ -82,8 +82,8 @@ std::vector<std::string> Verdict::notes() const {
   }
   for (std::size_t n = 1; n < parts.size() && !prior_; ++n)
     notes.push_back("segments " + runs_of(parts[n]) +
-                    " are not joined to the rest by any edge that was kept");
-  if (relations_) return notes;
+                    " are not joined to the rest by any accepted edge");
+  if (constraints_) return notes;
   std::vector<std::uint32_t> weak;
   for (std::uint32_t v = 0; v < support_.size(); ++v)
     if (support_[v] < 10) weak.push_back(v);
@@ -106,8 +106,8 @@ std::vector<std::string> Verdict::warnings(std::vector<std::vector<std::uint32_t
   }
   return {sentence +
           "), which no edge with pairs joins: each is solved by itself and keeps its place "
-          "after the segment before it; give more edges, or odometry_translation and "
-          "odometry_rotation"};
+          "after the segment before it; give more edges, or odometry_translation_sigma and "
+          "odometry_rotation_sigma"};
 }
 
 }  // namespace plumb

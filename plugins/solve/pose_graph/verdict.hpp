@@ -1,21 +1,21 @@
 #pragma once
-/// What the solved graph says of itself: numbers, each edge's fate, and what is weak.
+/// What the solved graph says of itself: numbers, each edge's status, and what is weak.
 
 #include "edge_state.hpp"
 
 namespace plumb {
 
-/// Mean weight from which an edge counts as kept, and under which as rejected; between them it is
-/// down-weighted.
-inline constexpr double kept_from = 0.5, rejected_under = 0.05;
-const char* fate_of(double mean_weight);
+/// Mean weight from which an edge counts as accepted, and under which as rejected; between them it
+/// is down-weighted.
+inline constexpr double accepted_from = 0.5, rejected_under = 0.05;
+const char* status_of(double mean_weight);
 
 class Verdict {
  public:
   explicit Verdict(std::size_t poses) : support_(poses, 0.0) {}
   void add(const EdgeState& edge);
-  /// A relation with the distance [m] that is left, and its robust weight.
-  void add(const RelativePose& relation, bool sequential, double residual, double weight);
+  /// A constraint with the distance [m] that is left, and its robust weight.
+  void add(const RelativePose& constraint, bool sequential, double residual, double weight);
   /// Poses in order that nothing names, as of dropped scans: they are a note, not parts of their
   /// own.
   void left_out(std::vector<std::uint32_t> poses) { left_out_ = std::move(poses); }
@@ -34,7 +34,7 @@ class Verdict {
   std::vector<std::uint32_t> left_out_;
   double squares_ = 0, weights_ = 0;
   std::uint64_t pairs_ = 0;
-  bool relations_ = false, prior_ = false;
+  bool constraints_ = false, prior_ = false;
 };
 
 }  // namespace plumb

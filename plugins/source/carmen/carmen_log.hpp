@@ -9,9 +9,9 @@
 ///   host logger_stamp ODOM x y theta tv rv accel stamp host logger_stamp PARAM name value stamp
 ///   host logger_stamp
 ///
-/// Metres, radians, seconds. The stamp is the third word from the end: relations refer to it; the
-/// last one counts from the logger's start. RLASER, ROBOTLASER2 and RAWLASER2 are a second laser,
-/// at the robot's back.
+/// Metres, radians, seconds. The stamp is the third word from the end: true relations refer to it;
+/// the last one counts from the logger's start. RLASER, ROBOTLASER2 and RAWLASER2 are a second
+/// laser, at the robot's back.
 
 #include <cstdint>
 #include <filesystem>

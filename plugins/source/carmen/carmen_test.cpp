@@ -232,7 +232,7 @@ TEST_F(CarmenLogs, DropZerosNearReadingsAndWhatIsNoNumber) {
       flaser(ranges(180, "3.00", {{0, "0"}, {1, "0.03"}, {2, "nan"}, {3, "-1"}, {4, "inf"}}), 1) +
       two_scans);
   EXPECT_EQ(log.count("beams nearer than min_range dropped"), 2u);
-  EXPECT_EQ(log.count("beams whose range is no number dropped"), 2u);
+  EXPECT_EQ(log.count("beams with a non-finite range dropped"), 2u);
   EXPECT_EQ(log.count("beams that saw nothing dropped"), 1u);
   EXPECT_EQ(log.cloud(0).size(), 175u);
   EXPECT_EQ(read(two_scans, {{"min_range", 2.5}}).cloud(0).size(), 0u);
@@ -313,7 +313,7 @@ TEST_F(CarmenLogs, LeaveOutScansWhoseBeamsPointNowhere) {
 TEST_F(CarmenLogs, CountLinesThatAreNoMessage) {
   auto log = read("garbage line\n\n# a comment\nTRUEPOS 1 2 3\n" + two_scans + "180 1.0 1.0\n");
   EXPECT_EQ(log.frames.keys.size(), 2u);
-  EXPECT_EQ(log.count("lines that are no message of CARMEN left out"), 2u);
+  EXPECT_EQ(log.count("lines that are not CARMEN messages left out"), 2u);
 }
 
 TEST_F(CarmenLogs, SurviveBeingCutAnywhere) {

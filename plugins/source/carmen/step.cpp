@@ -30,30 +30,34 @@ struct Carmen : WholeStep {
   static void describe(Declaration<Carmen>& is) {
     is.name("source.carmen").version(1).source("CARMEN's log format");
     is.summary(
-        "Reads the scans of a 2-D laser and their odometry from a CARMEN log, packed or not.");
-    is.output("frames", &Out::frames, "one scan a frame: points in the laser's coordinates, z = 0");
+        "Reads the scans of a 2-D laser and their odometry from a CARMEN log, which may be "
+        "compressed.");
+    is.output("frames", &Out::frames,
+              "one scan per frame: points in the laser's coordinates, z = 0");
     is.output("trajectory", &Out::trajectory,
               "stamp and pose of the laser for every scan, in the order of the file");
     is.param("path", &Params::path)
         .required()
         .doc(
             "log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are "
-            "unpacked");
+            "decompressed");
     is.choice("odometry", &Params::odometry,
-              {{"use", Odometry::use, "poses as the wheels gave them"},
+              {{"use", Odometry::use, "poses from wheel odometry"},
                {"ignore", Odometry::ignore, "every pose is the identity; stamps are kept"}})
         .doc("what the poses of the trajectory are");
     is.param("min_range", &Params::min_range)
         .unit("m")
         .range(0, 100)
-        .doc("nearer readings are dropped: nothing came back, or the robot saw itself");
+        .doc("nearer readings are dropped: no return, or the robot itself");
     is.param("max_range", &Params::max_range)
         .unit("m")
         .range(0.01, 1000)
-        .doc("readings from here on saw nothing and are dropped; none: found from the log");
+        .doc(
+            "readings at or beyond this distance are no return and are dropped; none: found from "
+            "the log");
     is.param("field_of_view", &Params::field_of_view)
         .unit("rad")
-        .range(1e-3, 6.2831853071795862)
+        .range(0.05 * deg, 360 * deg)
         .doc(
             "angle from the first beam to the last, centred ahead; none: as the log says, or "
             "CARMEN's convention");
@@ -97,7 +101,7 @@ struct Carmen : WholeStep {
       sum.nothing_seen += l.nothing_seen, sum.too_near += l.too_near, sum.no_number += l.no_number;
     count(context, "beams that saw nothing dropped", sum.nothing_seen);
     count(context, "beams nearer than min_range dropped", sum.too_near);
-    count(context, "beams whose range is no number dropped", sum.no_number);
+    count(context, "beams with a non-finite range dropped", sum.no_number);
 
     out.trajectory = trajectory_of(*log, params.odometry == Odometry::use);
     out.frames.open = [log, fan, limits](std::size_t k, Context&) {
@@ -128,7 +132,7 @@ struct Carmen : WholeStep {
     context.count("scans read", scans.size());
     count(context, "odometry lines beside the scans", log.odometry_lines);
     count(context, "scans of a second laser left out", log.second_laser);
-    count(context, "lines that are no message of CARMEN left out", log.no_message);
+    count(context, "lines that are not CARMEN messages left out", log.no_message);
     count(context, "other messages of the same laser left out", log.repeated);
     std::size_t back = 0, unknown = 0;
     bool moves = false;
@@ -143,7 +147,7 @@ struct Carmen : WholeStep {
     if (log.cut + log.not_numbers)
       context.warn(file + ":" + std::to_string(log.first_damaged) + ": " + std::to_string(log.cut) +
                    " scans with a wrong number of words and " + std::to_string(log.not_numbers) +
-                   " with words that are no numbers are left out; this line is the first");
+                   " with words that are not numbers are left out; this line is the first");
     count(context, "damaged scans left out", log.cut + log.not_numbers);
     if (unknown)
       context.warn(file + ": " + std::to_string(unknown) + " scans have " +

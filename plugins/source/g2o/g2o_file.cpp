@@ -18,7 +18,7 @@ struct Vertex {
 struct Measured {
   std::uint64_t from, to;
   std::size_t line;
-  RelativePose relation;
+  RelativePose constraint;
 };
 struct Fixed {
   std::uint64_t id;
@@ -104,7 +104,7 @@ class Reader {
     std::uint64_t value = 0;
     if (!io::to_number(word, value))
       refuse(io::in_quotes(word) + " after " + std::string(of) +
-             " is no vertex number: expected 0, 1, 2 or so");
+             " is not a vertex number: expected 0, 1, 2 or so");
     return value;
   }
   /// Exactly n finite numbers to the end of the line.
@@ -126,7 +126,7 @@ class Reader {
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     const double norm = q.coeffs().stableNorm();
     if (!(norm > 1e-6))
-      refuse("the quaternion has norm 0, so it is no rotation: no rotation is 0 0 0 1");
+      refuse("the quaternion has norm 0, so it is not a rotation: no rotation is 0 0 0 1");
     if (!std::isfinite(norm)) refuse("the quaternion is too large: its norm is 1");
     q.coeffs() /= norm;
     return {q, Eigen::Vector3d(v[0], v[1], v[2])};
@@ -149,29 +149,29 @@ class Reader {
       io::refuse(file_, "holds no vertex: expected VERTEX_SE3:QUAT or VERTEX_SE2 lines");
     std::ranges::stable_sort(vertices_, {}, &Vertex::id);
     G2oGraph graph;
-    graph.relations.planar = planar_;
+    graph.constraints.planar = planar_;
     for (const Vertex& vertex : vertices_) {
       line_ = vertex.line;
-      if (!graph.relations.ids.empty() && graph.relations.ids.back() == vertex.id)
+      if (!graph.constraints.ids.empty() && graph.constraints.ids.back() == vertex.id)
         refuse("vertex " + std::to_string(vertex.id) + " is given a second time: keep one");
-      graph.relations.ids.push_back(vertex.id);
+      graph.constraints.ids.push_back(vertex.id);
       graph.poses.T_world_segment.push_back(vertex.pose);
     }
     for (Measured& edge : edges_) {
       line_ = edge.line;
-      edge.relation.i = index_of(edge.from, graph.relations.ids);
-      edge.relation.j = index_of(edge.to, graph.relations.ids);
+      edge.constraint.i = index_of(edge.from, graph.constraints.ids);
+      edge.constraint.j = index_of(edge.to, graph.constraints.ids);
       if (edge.from == edge.to)
         refuse("the edge goes from vertex " + std::to_string(edge.from) + " to itself: remove it");
-      graph.relations.relative.push_back(edge.relation);
+      graph.constraints.relative.push_back(edge.constraint);
     }
     std::vector<bool> is_fixed(vertices_.size());
     for (const Fixed& fixed : fixed_) {
       line_ = fixed.line;
-      const std::uint32_t i = index_of(fixed.id, graph.relations.ids);
+      const std::uint32_t i = index_of(fixed.id, graph.constraints.ids);
       if (is_fixed[i]) continue;  // one that is fixed twice stays no more firmly
       is_fixed[i] = true;
-      graph.relations.absolute.push_back(
+      graph.constraints.absolute.push_back(
           {i, graph.poses.T_world_segment[i], 1e12 * Matrix6d::Identity()});
     }
     return graph;

@@ -9,8 +9,8 @@ namespace plumb {
 
 /// A graph and where its vertices start.
 struct G2oGraph {
-  Relations relations;
-  Poses poses;  ///< by our index: relations.ids[k] is the file's number of vertex k
+  Constraints constraints;
+  Poses poses;  ///< by our index: constraints.ids[k] is the file's number of vertex k
 };
 
 /// Reads VERTEX_SE3:QUAT and EDGE_SE3:QUAT, or VERTEX_SE2 and EDGE_SE2 (`planar`), and FIX.
@@ -19,7 +19,7 @@ struct G2oGraph {
 ///
 /// Information is that of e = (t, q.vec) of T_i_j^-1 T_i^-1 T_j, q.w >= 0, as EDGE_SE3:QUAT has it.
 /// An EDGE_SE2 has that of the angle, which is twice q.vec: its last row and column are multiplied
-/// by 2 each, and what a plane does not observe is 0. A fixed vertex becomes an absolute relation
+/// by 2 each, and what a plane does not observe is 0. A fixed vertex becomes an absolute constraint
 /// of information 1e12.
 ///
 /// Throws Error with file and line: cannot be opened, an unknown word, another number of numbers, a

@@ -44,13 +44,13 @@ TEST_F(G2oFile, KeepsVerticesInOrderOfTheirNumbersAndEdgesByIndex) {
       identity_triangle +
       "VERTEX_SE3:QUAT 1000 4 5 6 0 0 0.70710678118654752 0.70710678118654752 \r\n"
       "\nVERTEX_SE3:QUAT 7 0 0 1 0 0 0 -1\n");
-  EXPECT_FALSE(graph.relations.planar);
-  EXPECT_THAT(graph.relations.ids, ElementsAre(7, 1000));
+  EXPECT_FALSE(graph.constraints.planar);
+  EXPECT_THAT(graph.constraints.ids, ElementsAre(7, 1000));
   ASSERT_EQ(graph.poses.size(), 2u);
   EXPECT_EQ(graph.poses.T_world_segment[1].translation, Eigen::Vector3d(4, 5, 6));
   EXPECT_NEAR(angle(graph.poses.T_world_segment[1]), M_PI / 2, 1e-12);
-  ASSERT_EQ(graph.relations.relative.size(), 1u);
-  const RelativePose& edge = graph.relations.relative[0];
+  ASSERT_EQ(graph.constraints.relative.size(), 1u);
+  const RelativePose& edge = graph.constraints.relative[0];
   EXPECT_EQ(edge.i, 1u);
   EXPECT_EQ(edge.j, 0u);
   EXPECT_EQ(edge.T_i_j.translation, Eigen::Vector3d(1, 2, 3));
@@ -63,7 +63,7 @@ TEST_F(G2oFile, FillsTheInformationFromItsUpperTriangle) {
       "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n"
       "EDGE_SE3:QUAT 0 1 0 0 0 0 0 0 1 11 12 13 14 15 16 22 23 24 25 26 33 34 35 36 44 45 46 55 56 "
       "66\n");
-  const Matrix6d& m = graph.relations.relative[0].information;
+  const Matrix6d& m = graph.constraints.relative[0].information;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b) EXPECT_EQ(m(a, b), 10 * (std::min(a, b) + 1) + std::max(a, b) + 1);
 }
@@ -73,8 +73,8 @@ TEST_F(G2oFile, GivesAPlanarEdgeTheSameCostForSmallErrors) {
   const auto graph = read(
       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 2 1 1.5707963267948966\n"
       "EDGE_SE2 0 1 2 1 1.5707963267948966 10 1 2 20 3 30\n");
-  EXPECT_TRUE(graph.relations.planar);
-  const RelativePose& edge = graph.relations.relative[0];
+  EXPECT_TRUE(graph.constraints.planar);
+  const RelativePose& edge = graph.constraints.relative[0];
   EXPECT_LT((edge.T_i_j * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(2, 2, 0)).norm(), 1e-12);
   Eigen::Matrix3d information;
   information << 10, 1, 2, 1, 20, 3, 2, 3, 30;
@@ -89,17 +89,17 @@ TEST_F(G2oFile, GivesAPlanarEdgeTheSameCostForSmallErrors) {
 
 TEST_F(G2oFile, HoldsFixedVerticesWhereTheyAre) {
   const auto graph = read("FIX 5 6\nVERTEX_SE2 5 1 2 3\nVERTEX_SE2 6 4 5 6\n");
-  ASSERT_EQ(graph.relations.absolute.size(), 2u);
-  EXPECT_EQ(graph.relations.absolute[1].i, 1u);
-  EXPECT_EQ(graph.relations.absolute[1].T_world_i.translation, Eigen::Vector3d(4, 5, 0));
+  ASSERT_EQ(graph.constraints.absolute.size(), 2u);
+  EXPECT_EQ(graph.constraints.absolute[1].i, 1u);
+  EXPECT_EQ(graph.constraints.absolute[1].T_world_i.translation, Eigen::Vector3d(4, 5, 0));
 }
 
 TEST_F(G2oFile, HoldsAVertexThatIsFixedManyTimesOnce) {
   std::string all = "VERTEX_SE2 5 1 2 3\nVERTEX_SE2 6 4 5 6\nFIX 6";
   for (int k = 0; k < 1000; ++k) all += " 5";
   const auto graph = read(all + "\nFIX 6\n");
-  ASSERT_EQ(graph.relations.absolute.size(), 2u);
-  EXPECT_EQ(graph.relations.absolute[0].i, 1u);
+  ASSERT_EQ(graph.constraints.absolute.size(), 2u);
+  EXPECT_EQ(graph.constraints.absolute[0].i, 1u);
 }
 
 TEST_F(G2oFile, IsRefusedWithItsLineWhenAVertexIsUnknown) {
@@ -119,7 +119,7 @@ TEST_F(G2oFile, IsRefusedWithItsLineWhenALineIsDamaged) {
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 zero 0\n"), HasSubstr("'zero' is none"));
   EXPECT_THAT(refusal("VERTEX_SE2 0 0 nan 0\n"), HasSubstr("'nan' is none"));
   EXPECT_THAT(refusal("VERTEX_SE2 -1 0 0 0\n"),
-              HasSubstr("'-1' after VERTEX_SE2 is no vertex number"));
+              HasSubstr("'-1' after VERTEX_SE2 is not a vertex number"));
   EXPECT_THAT(refusal("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n"), HasSubstr("norm 0"));
   for (const char* heading : {"1e308", "-1e307", "1.1e6"})
     EXPECT_THAT(refusal(std::string("VERTEX_SE2 0 0 0 ") + heading + "\n"),
@@ -143,7 +143,7 @@ TEST_F(G2oFile, IsReadByTheStep) {
   PortOutput outputs[2];
   TestContext context;
   step.run(step.parameters({{"path", path.string()}}).get(), {}, outputs, context);
-  EXPECT_EQ(outputs[0].one.as<Relations>()->relative.size(), 1u);
+  EXPECT_EQ(outputs[0].one.as<Constraints>()->relative.size(), 1u);
   EXPECT_EQ(outputs[1].one.as<Poses>()->size(), 2u);
 }
 
@@ -159,8 +159,8 @@ TEST_P(KnownGraph, IsReadWhole) {
   if (!fs::exists(file)) GTEST_SKIP() << "needs " << file.string();
   const auto graph = read_g2o(file);
   EXPECT_EQ(graph.poses.size(), GetParam().vertices);
-  EXPECT_EQ(graph.relations.relative.size(), GetParam().edges);
-  EXPECT_EQ(graph.relations.planar, GetParam().planar);
+  EXPECT_EQ(graph.constraints.relative.size(), GetParam().edges);
+  EXPECT_EQ(graph.constraints.planar, GetParam().planar);
 }
 INSTANTIATE_TEST_SUITE_P(Files, KnownGraph,
                          testing::Values(KnownFile{"intel.g2o", 1728, 2512, true},

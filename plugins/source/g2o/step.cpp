@@ -7,7 +7,7 @@ namespace {
 struct G2o : WholeStep {
   struct In {};
   struct Out {
-    Relations relations;
+    Constraints constraints;
     Poses poses;
   };
   struct Params {
@@ -17,7 +17,7 @@ struct G2o : WholeStep {
   static void describe(Declaration<G2o>& is) {
     is.name("source.g2o").version(1).source("[Kuemmerle2011]");
     is.summary("Reads a pose graph in the text format of g2o.");
-    is.output("relations", &Out::relations,
+    is.output("constraints", &Out::constraints,
               "the edges, with their information, and the fixed vertices");
     is.output("poses", &Out::poses, "the vertices, in order of their numbers");
     is.param("path", &Params::path)
@@ -27,7 +27,7 @@ struct G2o : WholeStep {
 
   Out run(const In&, const Params& params, Context&) const {
     G2oGraph graph = read_g2o(params.path);
-    return {std::move(graph.relations), std::move(graph.poses)};
+    return {std::move(graph.constraints), std::move(graph.poses)};
   }
 };
 

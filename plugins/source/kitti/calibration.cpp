@@ -20,13 +20,13 @@ Pose read_calibration(const std::filesystem::path& file) {
     if (!io::next_word(line).empty())
       io::refuse(
           file, lines.number(),
-          "has more than 12 numbers after " + std::string(name) + ", which are no 3x4 matrix");
+          "has more than 12 numbers after " + std::string(name) + ", which are not a 3x4 matrix");
     const Eigen::Matrix3d r = m.leftCols<3>();
     if ((r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-2 ||
         r.determinant() < 0)
-      io::refuse(
-          file, lines.number(),
-          "the 3x3 part after " + std::string(name) + " is no rotation: correct the calibration");
+      io::refuse(file, lines.number(),
+                 "the 3x3 part after " + std::string(name) +
+                     " is not a rotation: correct the calibration");
     return {r, m.col(3)};
   }
   io::refuse(file,

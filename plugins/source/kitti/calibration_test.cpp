@@ -74,7 +74,7 @@ TEST_F(KittiFolder, IsReadFrameByFrame) {
   ASSERT_EQ(frame->cloud.size(), 1u);
   EXPECT_EQ(frame->cloud.point(0), Eigen::Vector3f(2, 1, 2));
   EXPECT_EQ(frame->cloud.intensity[0], 0.5f);
-  EXPECT_EQ(context.counts["points with a coordinate that is no number dropped"], 1u);
+  EXPECT_EQ(context.counts["points with a non-finite coordinate dropped"], 1u);
 }
 
 TEST_F(KittiFolder, GivesTheLasersPosesWhereACalibrationIsNamed) {
@@ -98,7 +98,7 @@ TEST_F(KittiFolder, KeepsWhatTheCameraSawWhereItWas) {
 
 TEST_F(KittiFolder, IsRefusedWhenAScanIsCutShort) {
   write("velodyne/000001.bin", std::string(30, '\0'));
-  EXPECT_THAT(refusal(), HasSubstr("000001.bin: has 30 bytes, which is no multiple of 16"));
+  EXPECT_THAT(refusal(), HasSubstr("000001.bin: has 30 bytes, which is not a multiple of 16"));
 }
 
 TEST_F(KittiFolder, IsRefusedWithoutFramesPosesOrTimes) {
@@ -123,7 +123,7 @@ TEST_F(KittiFolder, IsRefusedWithACalibrationThatIsNone) {
   write("calib.txt", "\nTr: 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(refusal(values), HasSubstr("calib.txt:2: expected 12 numbers"));
   write("calib.txt", "Tr: 2 0 0 0 0 2 0 0 0 0 2 0\n");
-  EXPECT_THAT(refusal(values), HasSubstr("is no rotation"));
+  EXPECT_THAT(refusal(values), HasSubstr("is not a rotation"));
 }
 
 }  // namespace

@@ -24,16 +24,16 @@ struct Kitti : WholeStep {
   static void describe(Declaration<Kitti>& is) {
     is.name("source.kitti").version(1).source("[Geiger2012]");
     is.summary("Reads a sequence of the KITTI odometry benchmark.");
-    is.output("frames", &Out::frames, "one laser scan a frame, read when it is needed");
+    is.output("frames", &Out::frames, "one laser scan per frame, read on demand");
     is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
     is.param("path", &Params::path).required().doc("folder of the sequence, with velodyne/*.bin");
     is.param("poses", &Params::poses)
-        .doc("12 numbers a line, one line a frame; none: poses.txt in the folder");
-    is.param("times", &Params::times).doc("one stamp [s] a line; none: times.txt in the folder");
+        .doc("12 numbers a line, one line per frame; none: poses.txt in the folder");
+    is.param("times", &Params::times).doc("one stamp [s] per line; none: times.txt in the folder");
     is.param("calibration", &Params::calibration)
         .doc(
-            "calib.txt with the laser's place Tr: the poses are then the camera's; none: they are "
-            "the laser's");
+            "calib.txt with the laser's extrinsics Tr: the poses are then the camera's; none: they "
+            "are the laser's");
   }
 
   Out run(const In&, const Params& params, Context&) const {
@@ -54,7 +54,7 @@ struct Kitti : WholeStep {
     for (const auto& file : files) out.frames.keys.push_back(io::key_of(file));
     out.frames.open = [files = std::move(files)](std::size_t k, Context& context) {
       auto [cloud, dropped] = read_bin(files[k].path);
-      if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };
     return out;

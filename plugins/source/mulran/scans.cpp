@@ -41,7 +41,8 @@ std::vector<Scan> scans_of(const fs::path& folder) {
   return scans;
 }
 
-PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory, double most_gap) {
+PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory,
+                   double max_time_gap) {
   PlacedScans result;
   const auto& stamps = trajectory.stamps;
   for (const Scan& scan : scans) {
@@ -49,7 +50,7 @@ PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory,
     const bool exact = after != stamps.end() && *after == scan.stamp;
     if (after == stamps.end() || (after == stamps.begin() && !exact)) {
       ++result.outside;
-    } else if (!exact && *after - *(after - 1) > most_gap) {
+    } else if (!exact && *after - *(after - 1) > max_time_gap) {
       ++result.in_gap;
     } else {
       result.scans.push_back(scan);

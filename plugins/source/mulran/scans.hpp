@@ -29,8 +29,9 @@ struct PlacedScans {
 };
 
 /// The pose of each scan, interpolated between the poses before and after it, which may be
-/// `most_gap` [s] apart; scans that have no such poses are left out.
-PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory, double most_gap);
+/// `max_time_gap` [s] apart; scans that have no such poses are left out.
+PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory,
+                   double max_time_gap);
 
 /// T_vehicle_laser of MulRan's car. Source: [Kim2020], the data set's calibration of its Ouster
 /// OS1-64.

@@ -94,7 +94,7 @@ TEST_F(MulRanFolder, LeavesOutScansWithoutPosesAndCountsThem) {
   EXPECT_EQ(sequence.frames.keys.size(), 3u);
   EXPECT_EQ(sequence.context.counts["frames outside the trajectory's time left out"], 2u);
   EXPECT_EQ(sequence.context.counts["frames in gaps of the trajectory left out"], 1u);
-  auto all = run("global_pose.csv", {{"most_gap", 10.0}});
+  auto all = run("global_pose.csv", {{"max_time_gap", 10.0}});
   ASSERT_EQ(all.frames.keys.size(), 4u);
   EXPECT_NEAR(all.trajectory.T_world_frame[2].translation.x(), 10, 1e-5);
 }

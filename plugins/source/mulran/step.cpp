@@ -19,13 +19,13 @@ struct MulRan : WholeStep {
     std::filesystem::path path;
     std::optional<std::filesystem::path> trajectory;
     Body poses_of = Body::sensor;
-    double most_gap = 1;
+    double max_time_gap = 1;
   };
 
   static void describe(Declaration<MulRan>& is) {
     is.name("source.mulran").version(1).source("[Kim2020]");
-    is.summary("Reads laser scans of the MulRan data set and a trajectory with other stamps.");
-    is.output("frames", &Out::frames, "one laser scan a frame, read when it is needed");
+    is.summary("Reads laser scans of the MulRan data set and a trajectory with its own stamps.");
+    is.output("frames", &Out::frames, "one laser scan per frame, read on demand");
     is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
     is.param("path", &Params::path)
         .required()
@@ -35,19 +35,19 @@ struct MulRan : WholeStep {
             "TUM file (.tum, .txt) or MulRan's global_pose.csv (.csv); none: odometry.tum in the "
             "folder");
     is.choice("poses_of", &Params::poses_of,
-              {{"sensor", Body::sensor, "of the laser, as a SLAM writes them"},
-               {"vehicle", Body::vehicle, "of MulRan's car, as in global_pose.csv"}})
-        .doc("what the trajectory's poses are those of");
-    is.param("most_gap", &Params::most_gap)
+              {{"sensor", Body::sensor, "the laser, as SLAM systems write them"},
+               {"vehicle", Body::vehicle, "MulRan's car, as in global_pose.csv"}})
+        .doc("the body whose poses the trajectory holds");
+    is.param("max_time_gap", &Params::max_time_gap)
         .unit("s")
         .range(0, 3600)
-        .doc("time between two poses up to which scans between them are kept");
+        .doc("time between two poses up to which scans between them are interpolated and kept");
   }
 
   Out run(const In&, const Params& params, Context& context) const {
     const auto scans = scans_of(params.path);
     const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
-    auto placing = placed(scans, read_trajectory(poses_from), params.most_gap);
+    auto placing = placed(scans, read_trajectory(poses_from), params.max_time_gap);
     if (placing.outside)
       context.count("frames outside the trajectory's time left out", placing.outside);
     if (placing.in_gap) context.count("frames in gaps of the trajectory left out", placing.in_gap);
@@ -64,7 +64,7 @@ struct MulRan : WholeStep {
     for (const Scan& scan : placing.scans) out.frames.keys.push_back(io::key_of(scan.file));
     out.frames.open = [kept = std::move(placing.scans)](std::size_t k, Context& reading) {
       auto [cloud, dropped] = read_bin(kept[k].file.path);
-      if (dropped) reading.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) reading.count("points with a non-finite coordinate dropped", dropped);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };
     return out;

@@ -141,7 +141,7 @@ TEST_F(Folder, CountsPointsThatAreNoNumbers) {
   odometry(2);
   auto sequence = run();
   EXPECT_EQ(sequence.frame(1).cloud.size(), 2u);
-  EXPECT_EQ(sequence.context.counts["points with a coordinate that is no number dropped"], 2u);
+  EXPECT_EQ(sequence.context.counts["points with a non-finite coordinate dropped"], 2u);
 }
 
 TEST_F(Folder, GivesAFrameAnotherKeyWhenItsFileOrItsUseChanges) {
@@ -169,7 +169,8 @@ TEST_F(Folder, IsRefusedWhenItIsMissingOrEmpty) {
   odometry(2);
   EXPECT_THAT(refusal({{"path", std::string("/no/such/folder")}}),
               HasSubstr("/no/such/folder: there is no such folder"));
-  EXPECT_THAT(refusal({{"path", (path / "odometry.tum").string()}}), HasSubstr("is not a folder"));
+  EXPECT_THAT(refusal({{"path", (path / "odometry.tum").string()}}),
+              HasSubstr("is not a directory"));
   EXPECT_THAT(refusal(), HasSubstr("has no frames"));
   write("frames.txt", "# nothing\n");
   EXPECT_THAT(refusal(), HasSubstr("lists no frame"));

@@ -26,19 +26,18 @@ struct Sequence : WholeStep {
 
   static void describe(Declaration<Sequence>& is) {
     is.name("source.sequence").version(1).source("Plumb");
-    is.summary("Reads a folder of PCD or PLY frames and the trajectory that the SLAM gave them.");
-    is.output("frames", &Out::frames,
-              "one cloud a frame, in sensor coordinates, read when it is needed");
+    is.summary("Reads a folder of PCD or PLY frames and their SLAM trajectory.");
+    is.output("frames", &Out::frames, "one cloud per frame, in sensor coordinates, read on demand");
     is.output("trajectory", &Out::trajectory, "stamp and pose of every frame");
     is.param("path", &Params::path)
         .required()
         .doc("folder with frames/*.pcd or *.ply, or frames.txt, a list of them");
     is.param("trajectory", &Params::trajectory)
-        .doc("TUM file with one pose a frame; none: odometry.tum in the folder");
+        .doc("TUM file with one pose per frame; none: odometry.tum in the folder");
     is.choice("coordinates", &Params::coordinates,
               {{"sensor", Coordinates::sensor, "the clouds are as the sensor saw them"},
                {"world", Coordinates::world,
-                "the clouds were already moved by the trajectory's poses"}})
+                "the clouds were already transformed by the trajectory's poses"}})
         .doc("coordinates that the clouds are stored in");
   }
 
@@ -56,7 +55,7 @@ struct Sequence : WholeStep {
     out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
                                                                     Context& context) {
       auto [cloud, dropped] = read_cloud(files[k].path);
-      if (dropped) context.count("points with a coordinate that is no number dropped", dropped);
+      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
       if (world) bring_to_frame(cloud, trajectory->T_world_frame[k]);
       return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
     };

@@ -15,7 +15,7 @@ struct SourceTrajectory : WholeStep {
 
   static void describe(Declaration<SourceTrajectory>& is) {
     is.name("source.trajectory").version(1).source("[Sturm2012], the format");
-    is.summary("Reads a trajectory, as another program left it.");
+    is.summary("Reads a trajectory from a TUM file.");
     is.output("trajectory", &Out::trajectory,
               "the poses in the order of the file; stamps may step back");
     is.param("path", &Params::path)

@@ -14,24 +14,24 @@ struct SlidingWindow : WholeStep {
     One<Edges> edges;
   };
   struct Out {
-    std::vector<Segment> groups;
+    std::vector<Segment> submaps;
   };
   struct Params {
     std::uint32_t frames = 10;
     std::uint32_t after = 0;
-    std::optional<double> leaf;
+    std::optional<double> voxel_size;
   };
 
   static void describe(Declaration<SlidingWindow>& is) {
     is.name("stitch.sliding_window").version(2).source("[Zhang2023] 2, fig. 2-4");
-    is.summary("Stitches each scan with those before it into one group of points.");
-    is.input("segments", &In::segments, "the scans in order, one a segment");
-    is.input("poses", &In::poses, "where the scans are");
+    is.summary("Merges each scan with the scans before it into a submap.");
+    is.input("segments", &In::segments, "the scans in order, one per segment");
+    is.input("poses", &In::poses, "poses of the scans");
     is.optional_input("edges", &In::edges,
-                      "the chain of accepted scans: only these take part, and none from before a "
-                      "window started again");
-    is.output("groups", &Out::groups,
-              "for each scan its window's points, in the scan's coordinates")
+                      "the chain of accepted scans: only these are merged, and none from before a "
+                      "window restarted");
+    is.output("submaps", &Out::submaps,
+              "for each scan the points of its window, in the scan's coordinates")
         .over("segments");
     is.param("frames", &Params::frames)
         .range(1, 10000)
@@ -39,13 +39,13 @@ struct SlidingWindow : WholeStep {
         .source("[Zhang2023] 2");
     is.param("after", &Params::after)
         .range(0, 10000)
-        .doc("following scans that also take part: for a refinement, when all is known");
-    is.param("leaf", &Params::leaf)
+        .doc("following scans that are merged too: for a refinement, when all scans are known");
+    is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.001, 1000)
         .doc(
-            "points so near to one that is kept become one with it, their mean; none: every point "
-            "stays");
+            "points this close to a kept point are merged with it into their mean; none: every "
+            "point is kept");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -61,22 +61,23 @@ struct SlidingWindow : WholeStep {
         sliding_windows(count, in.edges ? &*in.edges : nullptr, params.frames, params.after);
 
     Out out;
-    out.groups.resize(count);
+    out.submaps.resize(count);
     context.parallel(count, [&](std::size_t k) {
-      Cloud cloud = stitched(scans, *in.poses, windows, k, params.leaf);
+      Cloud cloud = stitched(scans, *in.poses, windows, k, params.voxel_size);
       const std::size_t points = cloud.size();
-      out.groups[k] = scans[k]->with(std::move(cloud), std::vector<std::uint16_t>(points, 0));
+      out.submaps[k] = scans[k]->with(std::move(cloud), std::vector<std::uint16_t>(points, 0));
     });
     return out;
   }
 
  private:
   static Cloud stitched(const std::vector<One<Segment>>& scans, const Poses& poses,
-                        const Windows& windows, std::size_t k, const std::optional<double>& leaf) {
+                        const Windows& windows, std::size_t k,
+                        const std::optional<double>& voxel_size) {
     Cloud all;
     std::optional<Spots> spots;
-    if (leaf) {
-      spots.emplace(*leaf);
+    if (voxel_size) {
+      spots.emplace(*voxel_size);
     } else {
       std::size_t points = 0;
       for (auto p = windows.first[k]; p < windows.end[k]; ++p)

@@ -1,5 +1,5 @@
 #pragma once
-/// Which scans make up the group of each one.
+/// Which scans make up the submap of each one.
 
 #include <vector>
 
@@ -7,15 +7,15 @@
 
 namespace plumb {
 
-/// Group k is made of the scans members[first[k] .. end[k]-1], which rise.
+/// Submap k is made of the scans members[first[k] .. end[k]-1], which rise.
 struct Windows {
   std::vector<std::uint32_t> members;     ///< scans that take part, in order
-  std::vector<std::uint32_t> first, end;  ///< of each scan's group, places in `members`
+  std::vector<std::uint32_t> first, end;  ///< of each scan's submap, places in `members`
 };
 
 /// For each of `count` scans the last `frames` that take part up to it, itself included if it does,
 /// and the next `after`. Without edges all take part. With them those do that an edge touches, and
-/// a window does not reach over a place where it started again: where a scan is joined to the one
+/// a window does not extend across a restart: where a scan is joined to the one
 /// before that takes part by no edge of kind sequential.
 Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
                         std::size_t after);

@@ -71,7 +71,7 @@ struct Drive {
   }
 };
 
-std::vector<Segment> groups_of(const Drive& drive, ParameterValue leaf) {
+std::vector<Segment> groups_of(const Drive& drive, ParameterValue voxel_size) {
   const Step& step = *plumb_module()->steps[0];
   std::vector<PortInput> inputs(3);
   inputs[0].wired = inputs[1].wired = true;
@@ -88,34 +88,34 @@ std::vector<Segment> groups_of(const Drive& drive, ParameterValue leaf) {
   inputs[1].one = any_value(drive.poses);
   std::vector<PortOutput> outputs(1);
   TestContext context;
-  step.run(step.parameters({{"frames", std::int64_t{3}}, {"leaf", leaf}}).get(), inputs, outputs,
-           context);
-  std::vector<Segment> groups;
-  for (const auto& value : outputs[0].many) groups.push_back(*value.as<Segment>());
-  return groups;
+  step.run(step.parameters({{"frames", std::int64_t{3}}, {"voxel_size", voxel_size}}).get(), inputs,
+           outputs, context);
+  std::vector<Segment> submaps;
+  for (const auto& value : outputs[0].many) submaps.push_back(*value.as<Segment>());
+  return submaps;
 }
 
 TEST(SlidingWindow, StitchesInTheNewestScansCoordinates) {
   const Drive drive;
-  const auto groups = groups_of(drive, std::monostate{});
-  ASSERT_EQ(groups.size(), 5u);
-  ASSERT_EQ(groups[4].cloud.size(), 6u);
+  const auto submaps = groups_of(drive, std::monostate{});
+  ASSERT_EQ(submaps.size(), 5u);
+  ASSERT_EQ(submaps[4].cloud.size(), 6u);
   const Eigen::Vector3f corner = drive.scans[4].cloud.point(0);
-  for (const int n : {0, 2, 4}) EXPECT_LT((groups[4].cloud.point(n) - corner).norm(), 1e-5f);
-  EXPECT_EQ(groups[4].cloud.point(5), drive.scans[4].cloud.point(1));
-  EXPECT_EQ(groups[4].range.first, 4u);
-  EXPECT_EQ(groups[4].frame, std::vector<std::uint16_t>(6, 0));
-  EXPECT_LT((groups[4].centroid - centroid_of(groups[4].cloud)).norm(), 1e-6f);
-  EXPECT_EQ(groups[4].box.high, box_of(groups[4].cloud).high);
-  for (const auto& group : groups)
+  for (const int n : {0, 2, 4}) EXPECT_LT((submaps[4].cloud.point(n) - corner).norm(), 1e-5f);
+  EXPECT_EQ(submaps[4].cloud.point(5), drive.scans[4].cloud.point(1));
+  EXPECT_EQ(submaps[4].range.first, 4u);
+  EXPECT_EQ(submaps[4].frame, std::vector<std::uint16_t>(6, 0));
+  EXPECT_LT((submaps[4].centroid - centroid_of(submaps[4].cloud)).norm(), 1e-6f);
+  EXPECT_EQ(submaps[4].box.high, box_of(submaps[4].cloud).high);
+  for (const auto& group : submaps)
     for (const float z : group.cloud.z) EXPECT_EQ(z, 0);  // planar stays planar
 }
 
 TEST(SlidingWindow, ThinsToOnePointACell) {
-  const auto groups = groups_of(Drive(), 0.5);
-  EXPECT_EQ(groups[4].cloud.size(),
+  const auto submaps = groups_of(Drive(), 0.5);
+  EXPECT_EQ(submaps[4].cloud.size(),
             4u);  // the corner, seen three times, and three points of their own
-  EXPECT_LT((groups[4].cloud.point(0) - Drive().scans[4].cloud.point(0)).norm(), 1e-5f);
+  EXPECT_LT((submaps[4].cloud.point(0) - Drive().scans[4].cloud.point(0)).norm(), 1e-5f);
 }
 
 TEST(SlidingWindow, RefusesPosesOfOtherSegments) {

@@ -17,114 +17,121 @@ struct TrackSlidingWindow : WholeStep {
   };
   struct Params {
     std::uint32_t frames = 10;
-    double every = 0.25, turn = 0.26;
-    std::optional<double> leaf = 0.05;
+    double min_translation = 0.25, min_rotation = 15 * deg;
+    std::optional<double> voxel_size = 0.05;
     double radius = 0.25;
     Stop stop = Stop::ratio;
     Metric metric = Metric::line;
-    double reach = 0.3;
-    std::uint32_t iterations = 50;
+    double max_correspondence_distance = 0.3;
+    std::uint32_t max_iterations = 50;
     double change = 1e-4, ratio = 0.95;
-    std::optional<double> hold;
-    double least_overlap = 0.5;
+    std::optional<double> odometry_sigma;
+    double min_overlap = 0.5;
     std::optional<double> search_below = 0.9;
     double search_blind = 0.98;
-    double search_reach = 0.6, search_turn = 0.5, lost_reach = 1.5;
+    double search_window = 0.6, search_angle = 30 * deg, lost_search_window = 1.5;
     std::uint32_t patience = 5;
     std::string check() const {
-      return hold && metric == Metric::point ? "'hold' goes with 'metric: line'" : "";
+      return odometry_sigma && metric == Metric::point ? "'odometry_sigma' goes with 'metric: line'"
+                                                       : "";
     }
   };
 
   static void describe(Declaration<TrackSlidingWindow>& is) {
-    is.name("track.sliding_window").version(1).source("[Zhang2023] 2");
-    is.summary(
-        "Follows a 2-D laser: lays each scan in turn onto the stitched group of those before it.");
-    is.input("segments", &In::segments, "the scans in order, one a segment, in the plane");
-    is.input("poses", &In::poses,
-             "where they are as the odometry has it; all the same where there is none");
+    is.name("track.sliding_window")
+        .version(1)
+        .source("[Zhang2023] 2; registration to the submap is ours");
+    is.summary("Tracks a 2-D laser by registering each scan to the submap of the scans before it.");
+    is.input("segments", &In::segments, "the scans in order, one per segment, in the plane");
+    is.input("poses", &In::poses, "their poses from odometry; all equal where there is none");
     is.input("edges", &In::edges,
-             "the chain of accepted scans; an edge that is not sequential starts the window again");
-    is.output("poses", &Out::poses,
-              "where the scans are now; those outside the chain lie between their neighbours");
+             "the chain of accepted scans; an edge that is not sequential restarts the window");
+    is.output("poses", &Out::poses, "poses of the scans; those outside the chain are interpolated");
     is.output("metrics", &Out::metrics,
-              "scans laid on, iterations, distances and overlap on average; windows started again");
+              "scans registered; means of iterations, distances and overlap; windows restarted");
     is.param("frames", &Params::frames)
         .range(1, 1000)
         .doc("scans in the window")
         .source("[Zhang2023] 2");
-    is.param("every", &Params::every)
+    is.param("min_translation", &Params::min_translation)
         .unit("m")
         .range(0, 100)
         .doc(
             "a scan joins the window when it is farther than this from the window's newest; 0: "
             "each does");
-    is.param("turn", &Params::turn).unit("rad").range(0, 7).doc("or turned by more");
-    is.param("leaf", &Params::leaf)
+    is.param("min_rotation", &Params::min_rotation)
+        .unit("rad")
+        .range(0, 360 * deg)
+        .doc("or rotated by more than this");
+    is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.001, 10)
         .doc(
-            "points of the group so near to one that is kept become one with it, their mean; none: "
-            "every point stays");
+            "points of the submap this close to a kept point are merged with it into their mean; "
+            "none: every point is kept");
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.01, 10)
-        .doc("of the neighbourhood that a point's normal is taken from");
+        .doc("radius of the neighbourhood for a point's normal");
     is.choice("stop", &Params::stop,
               {{"ratio", Stop::ratio,
-                "when the mean distance of the pairs stops falling: IA-ICP, eq. (12)"},
-               {"change", Stop::change, "when the pose rests: the usual ICP"}})
+                "when the mean distance of the pairs stops decreasing: IA-ICP, eq. (12)"},
+               {"change", Stop::change, "when the pose converges: standard ICP"}})
         .doc("when a registration ends")
         .source("[Zhang2023] eq. (12)");
     is.choice("metric", &Params::metric,
-              {{"line", Metric::line, "the part of the pairs' distance along the group's normal"},
-               {"point", Metric::point, "the distance of the pairs"}})
-        .doc("what is made small")
+              {{"line", Metric::line, "point-to-line distance, along the submap's normal"},
+               {"point", Metric::point, "point-to-point distance"}})
+        .doc("the error that is minimised")
         .source("[Zhang2023] eq. (3)");
-    is.param("reach", &Params::reach)
+    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(1e-3, 100)
-        .doc("farthest that a pair may be apart");
-    is.param("iterations", &Params::iterations).range(1, 10000).doc("the most iterations");
+        .doc("distance between the two points of a pair");
+    is.param("max_iterations", &Params::max_iterations)
+        .range(1, 10000)
+        .doc("iterations of one registration");
     is.param("change", &Params::change)
         .range(1e-9, 1)
-        .doc("it rests when it moves by less, m and rad together");
+        .doc("converged when an iteration moves the pose by less, m and rad added");
     is.param("ratio", &Params::ratio)
         .range(0, 1)
-        .doc("stops when the mean distance is no less than this times that of the iteration before")
+        .doc("stops when the mean distance is at least this times that of the iteration before")
         .source("[Zhang2023] 2");
-    is.param("hold", &Params::hold)
+    is.param("odometry_sigma", &Params::odometry_sigma)
         .unit("m")
         .range(1e-4, 100)
         .doc(
-            "with metric line, standard deviation of the odometry from scan to scan, a third of it "
-            "in rad for the heading; none: free");
-    is.param("least_overlap", &Params::least_overlap)
+            "with metric line, standard deviation of the odometry's translation from scan to scan, "
+            "a third of it in rad for the heading; none: no prior");
+    is.param("min_overlap", &Params::min_overlap)
         .range(0, 1)
         .doc(
-            "share of a scan's points that must have a partner; else the expected motion stands "
-            "and the scan stays outside the window");
+            "share of a scan's points that must have a pair; else the predicted motion is used and "
+            "the scan does not join the window");
     is.param("search_below", &Params::search_below)
         .range(0, 1)
-        .doc("where the overlap is less, every pose round the expected one is tried; none: never");
+        .doc(
+            "where the overlap is lower, a window around the predicted pose is searched; none: "
+            "never");
     is.param("search_blind", &Params::search_blind)
         .range(0, 1)
-        .doc("the same where there is no odometry, if it is more");
-    is.param("search_reach", &Params::search_reach)
+        .doc("the same where there is no odometry, if it is greater");
+    is.param("search_window", &Params::search_window)
         .unit("m")
         .range(0.01, 20)
-        .doc("half the width of that search");
-    is.param("search_turn", &Params::search_turn)
+        .doc("half width of the search window");
+    is.param("search_angle", &Params::search_angle)
         .unit("rad")
-        .range(0.001, 3.15)
-        .doc("half its width in heading");
-    is.param("lost_reach", &Params::lost_reach)
+        .range(0.05 * deg, 180 * deg)
+        .doc("half width of the search window in heading");
+    is.param("lost_search_window", &Params::lost_search_window)
         .unit("m")
         .range(0.01, 20)
-        .doc("where that does not help it is searched in all headings, so far to each side");
+        .doc("half width of a second search, in all headings, where the first does not succeed");
     is.param("patience", &Params::patience)
         .range(0, 1e6)
-        .doc("after more in a row that do not fit the window is emptied and starts again");
+        .doc("after more scans in a row that do not fit, the window is cleared and restarts");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -138,15 +145,15 @@ struct TrackSlidingWindow : WholeStep {
       if (n) context.count(what, n);
     };
     count("iterations", static_cast<std::size_t>(tracked.iterations));
-    count("scans searched for", tracked.searched);
+    count("scans whose pose was searched for", tracked.searched);
     count("scans that did not fit", tracked.unfit);
-    count("windows started again", tracked.restarts);
+    count("windows restarted", tracked.restarts);
     if (tracked.unfit)
-      context.warn(std::to_string(tracked.unfit) + " of " + std::to_string(tracked.laid) +
-                   " scans do not fit those before them: the expected motion stands there");
-    const double n = std::max<double>(1, static_cast<double>(tracked.laid));
+      context.warn(std::to_string(tracked.unfit) + " of " + std::to_string(tracked.registered) +
+                   " scans do not fit those before them: the predicted motion is used there");
+    const double n = std::max<double>(1, static_cast<double>(tracked.registered));
     Out out;
-    out.metrics.add("registrations", static_cast<double>(tracked.laid), "")
+    out.metrics.add("registrations", static_cast<double>(tracked.registered), "")
         .add("iterations", tracked.iterations / n, "")
         .add("mae", tracked.mae / n, "m")
         .add("overlap", tracked.overlap / n, "")
@@ -160,16 +167,17 @@ struct TrackSlidingWindow : WholeStep {
  private:
   static TrackOptions options_of(const Params& params) {
     TrackOptions options;
-    options.frames = params.frames, options.leaf = params.leaf, options.radius = params.radius;
-    options.search_reach = params.search_reach, options.search_turn = params.search_turn;
-    options.lost_reach = params.lost_reach;
+    options.frames = params.frames, options.voxel_size = params.voxel_size,
+    options.radius = params.radius;
+    options.search_window = params.search_window, options.search_angle = params.search_angle;
+    options.lost_search_window = params.lost_search_window;
     options.icp.stop = params.stop, options.icp.metric = params.metric,
-    options.icp.reach = params.reach;
-    options.icp.iterations = params.iterations, options.icp.change = params.change,
+    options.icp.max_correspondence_distance = params.max_correspondence_distance;
+    options.icp.max_iterations = params.max_iterations, options.icp.change = params.change,
     options.icp.ratio = params.ratio;
-    options.icp.hold = params.hold;
-    options.every = params.every, options.turn = params.turn,
-    options.least_overlap = params.least_overlap;
+    options.icp.start_sigma = params.odometry_sigma;
+    options.min_translation = params.min_translation, options.min_rotation = params.min_rotation,
+    options.min_overlap = params.min_overlap;
     options.search_below = params.search_below, options.search_blind = params.search_blind;
     options.patience = params.patience;
     return options;

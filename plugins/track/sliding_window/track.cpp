@@ -14,7 +14,7 @@ class Tracker {
       : scans_(scans),
         initial_(initial),
         options_(options),
-        group_(options),
+        submap_(options),
         lines_(options.icp.metric == Metric::line),
         poses_(scans.size()) {
     result_.poses = initial;
@@ -30,7 +30,7 @@ class Tracker {
     if (chain.size() == 0) return std::move(result_);
     const std::uint32_t first = chain.list.front().i;
     place(first, planar(initial_.T_world_segment[first]));
-    group_.add(*scans_[first], poses_[first], lines_);
+    submap_.add(*scans_[first], poses_[first], lines_);
     for (const Edge& edge : chain.list) {
       const bool fits = follow(edge);
       between(edge);
@@ -47,17 +47,17 @@ class Tracker {
     const PlanarPose start =
         poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
     IcpOptions icp = options_.icp;
-    if (!known) icp.hold.reset();
+    if (!known) icp.start_sigma.reset();
     const Cloud& scan = *scans_[edge.j];
 
-    IcpResult found = group_.lay(scan, start, icp);
+    IcpResult found = submap_.align(scan, start, icp);
     std::uint32_t iterations = found.iterations;
     const auto search = [&](Breadth breadth) {
-      const auto peak = group_.search(scan, start, known, breadth);
+      const auto peak = submap_.search(scan, start, known, breadth);
       if (!peak) return;
-      const IcpResult other = group_.lay(scan, *peak, icp);
+      const IcpResult other = submap_.align(scan, *peak, icp);
       iterations += other.iterations;
-      if (group_.score(scan, other.T, start, known) > group_.score(scan, found.T, start, known))
+      if (submap_.score(scan, other.T, start, known) > submap_.score(scan, found.T, start, known))
         found = other;
     };
     if (options_.search_below &&
@@ -65,10 +65,10 @@ class Tracker {
                                : std::max(*options_.search_below, options_.search_blind))) {
       ++result_.searched;
       search(Breadth::near);
-      if (found.overlap < options_.least_overlap) search(Breadth::all_headings);
+      if (found.overlap < options_.min_overlap) search(Breadth::all_headings);
     }
-    const bool fits = found.pairs >= 3 && found.overlap >= options_.least_overlap;
-    ++result_.laid;
+    const bool fits = found.pairs >= 3 && found.overlap >= options_.min_overlap;
+    ++result_.registered;
     result_.iterations += iterations, result_.mae += found.mae, result_.overlap += found.overlap;
     result_.unfit += !fits;
     place(edge.j, fits ? found.T : start);
@@ -80,19 +80,19 @@ class Tracker {
   void take(const Edge& edge, bool fits) {
     unfit_in_a_row_ = fits ? 0 : unfit_in_a_row_ + 1;
     if (edge.kind != EdgeKind::sequential || unfit_in_a_row_ > options_.patience) {
-      group_.clear();
+      submap_.clear();
       ++result_.restarts;
       unfit_in_a_row_ = 0;
     } else if (!fits || !far(poses_[edge.j])) {
       return;
     }
-    group_.add(*scans_[edge.j], poses_[edge.j], lines_);
+    submap_.add(*scans_[edge.j], poses_[edge.j], lines_);
   }
 
   bool far(const PlanarPose& pose) const {
-    const PlanarPose from = group_.newest();
-    return std::hypot(pose.x - from.x, pose.y - from.y) > options_.every ||
-           std::abs(wrapped(pose.yaw - from.yaw)) > options_.turn;
+    const PlanarPose from = submap_.newest();
+    return std::hypot(pose.x - from.x, pose.y - from.y) > options_.min_translation ||
+           std::abs(wrapped(pose.yaw - from.yaw)) > options_.min_rotation;
   }
 
   void place(std::uint32_t k, PlanarPose pose) {
@@ -116,7 +116,7 @@ class Tracker {
   std::span<const Cloud* const> scans_;
   const Poses& initial_;
   const TrackOptions& options_;
-  Group group_;
+  Submap submap_;
   bool lines_, has_odometry_ = true;
   std::vector<PlanarPose> poses_;
   PlanarPose motion_;  ///< between the last two

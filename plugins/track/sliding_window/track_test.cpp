@@ -46,7 +46,7 @@ struct Drive {
 
 TrackOptions lines() {
   TrackOptions options;
-  options.icp.stop = Stop::ratio, options.icp.metric = Metric::line, options.icp.hold = 0.05;
+  options.icp.stop = Stop::ratio, options.icp.metric = Metric::line, options.icp.start_sigma = 0.05;
   return options;
 }
 
@@ -220,12 +220,12 @@ TEST(TrackStep, GivesPosesAndWhatItCounted) {
   step.each("segments", segments)
       .with("poses", drive.odometry)
       .with("edges", drive.chain)
-      .set("hold", 0.05);
+      .set("odometry_sigma", 0.05);
   EXPECT_LT(drive.error(step.run<Poses>("poses", context), 19), 0.02);
   EXPECT_GE(context.counts["iterations"], 19u);
   EXPECT_EQ(step.run<Metrics>("metrics", context).numbers[0].value, 19);
   step.set("metric", std::string("point"));
-  EXPECT_THROW(step.run<Poses>("poses", context), Error);  // 'hold' goes with lines
+  EXPECT_THROW(step.run<Poses>("poses", context), Error);  // 'odometry_sigma' goes with lines
 }
 
 }  // namespace

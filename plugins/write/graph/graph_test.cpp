@@ -31,78 +31,79 @@ Vector6d g2o_error(const Pose& Z, const Pose& T_i_j) {
   return v;
 }
 
-TEST(RelationOf, IsTheTruePoseForExactPairs) {
+TEST(ConstraintOf, IsTheTruePoseForExactPairs) {
   std::mt19937 random(1);
   const Pose truth(exp_rotation({0.1, 0.2, 0.5}), {5, 3, 1});
-  const auto relation = relation_of({2, 4}, pairs(truth, 50, 0, random),
-                                    truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
-  ASSERT_TRUE(relation);
-  EXPECT_EQ(relation->j, 4u);
-  EXPECT_LT(g2o_error(relation->T_i_j, truth).norm(), 1e-5);
+  const auto constraint = constraint_of({2, 4}, pairs(truth, 50, 0, random),
+                                        truth * Pose(exp_rotation({0, 0, 0.1}), {1, 0, 0}), 0.1);
+  ASSERT_TRUE(constraint);
+  EXPECT_EQ(constraint->j, 4u);
+  EXPECT_LT(g2o_error(constraint->T_i_j, truth).norm(), 1e-5);
 }
 
-TEST(RelationOf, HasTheInformationWithWhichTheCostOfThePairsRises) {
+TEST(ConstraintOf, HasTheInformationWithWhichTheCostOfThePairsRises) {
   std::mt19937 random(2);
   const Pose truth(exp_rotation({0.1, 0.2, 0.5}), {5, 3, 1});
   const double noise = 0.05;
   const auto m = pairs(truth, 500, noise, random);
-  const auto relation = *relation_of({0, 1}, m, truth, noise);
+  const auto constraint = *constraint_of({0, 1}, m, truth, noise);
   const auto cost = [&](const Pose& T_i_j) {
     double sum = 0;
     for (std::size_t k = 0; k < m.size(); ++k)
       sum += (m.p[k].cast<double>() - T_i_j * m.q[k].cast<double>().eval()).squaredNorm();
     return sum / (noise * noise);
   };
-  const double least = cost(relation.T_i_j);
+  const double least = cost(constraint.T_i_j);
   for (int trial = 0; trial < 10; ++trial) {
     const Pose moved =
-        relation.T_i_j * Pose(exp_rotation(gauss3(random, 1e-4)), gauss3(random, 1e-3));
-    const Vector6d e = g2o_error(relation.T_i_j, moved);
-    EXPECT_NEAR(e.dot(relation.information * e) / (cost(moved) - least), 1, 0.01);
+        constraint.T_i_j * Pose(exp_rotation(gauss3(random, 1e-4)), gauss3(random, 1e-3));
+    const Vector6d e = g2o_error(constraint.T_i_j, moved);
+    EXPECT_NEAR(e.dot(constraint.information * e) / (cost(moved) - least), 1, 0.01);
   }
 }
 
-TEST(RelationOf, SpreadsAsItsInformationSays) {
+TEST(ConstraintOf, SpreadsAsItsInformationSays) {
   std::mt19937 random(3);
   const Pose truth(exp_rotation({0, 0, 1}), {5, 3, 1});
   double chi2 = 0;
   const int trials = 200;
   for (int k = 0; k < trials; ++k) {
-    const auto relation = *relation_of({0, 1}, pairs(truth, 60, 0.1, random), truth, std::nullopt);
-    const Vector6d e = g2o_error(relation.T_i_j, truth);
-    chi2 += e.dot(relation.information * e);
+    const auto constraint =
+        *constraint_of({0, 1}, pairs(truth, 60, 0.1, random), truth, std::nullopt);
+    const Vector6d e = g2o_error(constraint.T_i_j, truth);
+    chi2 += e.dot(constraint.information * e);
   }
   EXPECT_NEAR(chi2 / trials, 6, 1);
 }
 
-TEST(RelationOf, NeedsThreePairs) {
+TEST(ConstraintOf, NeedsThreePairs) {
   std::mt19937 random(4);
-  EXPECT_FALSE(relation_of({0, 1}, pairs(Pose(), 2, 0, random), Pose(), std::nullopt));
+  EXPECT_FALSE(constraint_of({0, 1}, pairs(Pose(), 2, 0, random), Pose(), std::nullopt));
 }
 
 TEST(G2oText, HasVerticesTheFixedOneAndEdgesInUpperTriangles) {
   Poses poses;
   poses.T_world_segment = {Pose(),
                            Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1.5, 0, -2))};
-  Relations relations;
-  relations.relative = {{0, 1, poses.relative(0, 1), Matrix6d::Identity() * 4}};
-  EXPECT_EQ(g2o_text(poses, relations),
+  Constraints constraints;
+  constraints.relative = {{0, 1, poses.relative(0, 1), Matrix6d::Identity() * 4}};
+  EXPECT_EQ(g2o_text(poses, constraints),
             "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"
             "VERTEX_SE3:QUAT 1 1.5 0 -2 0 0 0 1\n"
             "FIX 0\n"
             "EDGE_SE3:QUAT 0 1 1.5 0 -2 0 0 0 1 4 0 0 0 0 0 4 0 0 0 0 4 0 0 0 4 0 0 4 0 4\n");
 }
 
-TEST(G2oText, IsPlanarAndKeepsTheFilesNumbersWhereTheRelationsAreAndDo) {
+TEST(G2oText, IsPlanarAndKeepsTheFilesNumbersWhereTheConstraintsAreAndDo) {
   Poses poses;
   poses.T_world_segment = {Pose(), Pose(exp_rotation({0, 0, 0.5}), {1, 2, 0})};
-  Relations relations;
-  relations.planar = true;
-  relations.ids = {7, 9};
+  Constraints constraints;
+  constraints.planar = true;
+  constraints.ids = {7, 9};
   Matrix6d information = Matrix6d::Identity();
   information(5, 5) = 40;  // of q.z, so 10 of the angle
-  relations.relative = {{0, 1, poses.relative(0, 1), information}};
-  const auto text = g2o_text(poses, relations);
+  constraints.relative = {{0, 1, poses.relative(0, 1), information}};
+  const auto text = g2o_text(poses, constraints);
   EXPECT_THAT(
       text,
       testing::StartsWith(

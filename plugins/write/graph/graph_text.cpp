@@ -51,8 +51,8 @@ void put_planar(std::string& text, const Pose& pose) {
 
 }  // namespace
 
-std::optional<RelativePose> relation_of(const Edge& edge, const Matches& matches, const Pose& T_i_j,
-                                        std::optional<double> noise) {
+std::optional<RelativePose> constraint_of(const Edge& edge, const Matches& matches,
+                                          const Pose& T_i_j, std::optional<double> noise) {
   if (matches.size() < 3) return std::nullopt;
   const PairForm form = form_of(matches, T_i_j.inverse());
   const Pose T_j_i = fitted(form);
@@ -72,19 +72,19 @@ std::optional<RelativePose> relation_of(const Edge& edge, const Matches& matches
   return RelativePose{edge.i, edge.j, T_j_i.inverse(), information};
 }
 
-std::string g2o_text(const Poses& poses, const Relations& relations) {
+std::string g2o_text(const Poses& poses, const Constraints& constraints) {
   std::string text;
   const auto id = [&](std::size_t k) {
-    return " " + std::to_string(relations.ids.empty() ? k : relations.ids[k]);
+    return " " + std::to_string(constraints.ids.empty() ? k : constraints.ids[k]);
   };
-  const bool planar = relations.planar;
+  const bool planar = constraints.planar;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     text += (planar ? "VERTEX_SE2" : "VERTEX_SE3:QUAT") + id(k);
     planar ? put_planar(text, poses.T_world_segment[k]) : put(text, poses.T_world_segment[k]);
     text += '\n';
   }
   if (poses.size() > 0) text += "FIX" + id(0) + '\n';
-  for (const auto& r : relations.relative) {
+  for (const auto& r : constraints.relative) {
     text += (planar ? "EDGE_SE2" : "EDGE_SE3:QUAT") + id(r.i) + id(r.j);
     planar ? put_planar(text, r.T_i_j) : put(text, r.T_i_j);
     const std::vector<int> axes =

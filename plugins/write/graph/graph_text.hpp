@@ -13,12 +13,12 @@ namespace plumb {
 /// sigma^2, J the derivative of the pairs' residuals by g2o's [t; q.vec]. sigma [m] is `noise`, or
 /// without it the rms that is left after the fit (over the degrees of freedom, at least 1 mm).
 /// Nothing for fewer than 3 pairs.
-std::optional<RelativePose> relation_of(const Edge& edge, const Matches& matches, const Pose& T_i_j,
-                                        std::optional<double> noise);
+std::optional<RelativePose> constraint_of(const Edge& edge, const Matches& matches,
+                                          const Pose& T_i_j, std::optional<double> noise);
 
-/// VERTEX_SE3:QUAT, FIX of the first vertex, EDGE_SE3:QUAT for each relation; VERTEX_SE2 and
-/// EDGE_SE2 where `relations.planar`. Vertices have the numbers of `relations.ids`, or count from 0
-/// if it is empty. Numbers are the shortest that read back as the same.
-std::string g2o_text(const Poses& poses, const Relations& relations);
+/// VERTEX_SE3:QUAT, FIX of the first vertex, EDGE_SE3:QUAT for each constraint; VERTEX_SE2 and
+/// EDGE_SE2 where `constraints.planar`. Vertices have the numbers of `constraints.ids`, or count
+/// from 0 if it is empty. Numbers are the shortest that read back as the same.
+std::string g2o_text(const Poses& poses, const Constraints& constraints);
 
 }  // namespace plumb

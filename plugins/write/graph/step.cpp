@@ -8,7 +8,7 @@ struct WriteGraph : WholeStep {
   struct In {
     One<Poses> poses;
     Each<Matches> matches;
-    One<Relations> relations;
+    One<Constraints> constraints;
   };
   struct Out {
     Document document;
@@ -30,22 +30,22 @@ struct WriteGraph : WholeStep {
     is.input("poses", &In::poses, "the vertices");
     is.optional_input("matches", &In::matches,
                       "point pairs: each edge becomes the relative pose that fits them best");
-    is.optional_input("relations", &In::relations, "relative poses, written as they are");
+    is.optional_input("constraints", &In::constraints, "relative poses, written as they are");
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
     is.param("noise", &Params::noise)
         .unit("m")
         .range(1e-6, 1000)
         .doc(
-            "standard deviation of a pair, for the edges' information; none: what each edge's "
-            "pairs have left after the fit");
+            "standard deviation of a pair, for the edges' information; none: the residual of each "
+            "edge's fit");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    Relations graph;
-    if (in.relations) graph = *in.relations;
+    Constraints graph;
+    if (in.constraints) graph = *in.constraints;
     if (!graph.ids.empty() && graph.ids.size() != in.poses->size())
-      throw Error("the relations have " + std::to_string(graph.ids.size()) +
+      throw Error("the constraints have " + std::to_string(graph.ids.size()) +
                   " vertices but there are " + std::to_string(in.poses->size()) +
                   " poses; wire poses of the same graph");
     if (in.matches) {
@@ -56,11 +56,12 @@ struct WriteGraph : WholeStep {
           throw Error("an edge names a segment beyond the " + std::to_string(in.poses->size()) +
                       " poses; wire poses of the same segments");
       context.parallel(edges.size(), [&](std::size_t k) {
-        found[k] = relation_of(edges[k], *in.matches.open(k),
-                               in.poses->relative(edges[k].i, edges[k].j), params.noise);
+        found[k] = constraint_of(edges[k], *in.matches.open(k),
+                                 in.poses->relative(edges[k].i, edges[k].j), params.noise);
       });
       std::uint64_t without = 0;
-      for (auto& relation : found) relation ? graph.relative.push_back(*relation) : void(++without);
+      for (auto& constraint : found)
+        constraint ? graph.relative.push_back(*constraint) : void(++without);
       if (without) context.count("edges with fewer than 3 pairs not written", without);
     }
     return {{params.name, g2o_text(*in.poses, graph)}};

@@ -52,9 +52,9 @@ std::vector<Eigen::Vector3f> taken(VoxelMap& map) {
 }
 
 using Cell = std::array<long, 3>;
-Cell cell_of(const Eigen::Vector3d& p, double leaf) {
-  return {std::lround(std::floor(p.x() / leaf)), std::lround(std::floor(p.y() / leaf)),
-          std::lround(std::floor(p.z() / leaf))};
+Cell cell_of(const Eigen::Vector3d& p, double voxel_size) {
+  return {std::lround(std::floor(p.x() / voxel_size)), std::lround(std::floor(p.y() / voxel_size)),
+          std::lround(std::floor(p.z() / voxel_size))};
 }
 
 TEST(VoxelMap, HoldsTheMeanOfEachCellAsAMapOfCellsDoes) {
@@ -194,7 +194,7 @@ std::string document(std::size_t frames, const Eigen::Vector3d& start, const std
   inputs[1].one = any_value(trajectory);
   PortOutput output;
   const Step& step = *plumb_module()->steps[0];
-  step.run(step.parameters({{"leaf", 0.5}, {"format", format}}).get(), inputs, {&output, 1},
+  step.run(step.parameters({{"voxel_size", 0.5}, {"format", format}}).get(), inputs, {&output, 1},
            context);
   return output.one.as<Document>()->bytes.text();
 }

@@ -19,7 +19,7 @@ struct WriteMap : WholeStep {
   };
   struct Params {
     std::string name = "map.ply";
-    double leaf = 0.1;
+    double voxel_size = 0.1;
     MapFormat format = MapFormat::ply;
     std::string check() const {
       return name.empty() || name.find('/') != std::string::npos
@@ -31,16 +31,16 @@ struct WriteMap : WholeStep {
   static void describe(Declaration<WriteMap>& is) {
     is.name("write.map")
         .version(2)
-        .summary("Writes the map: all frames by their poses, one point a cell.");
-    is.input("frames", &In::frames, "the frames, opened one after another");
+        .summary("Writes the map: the points of all frames under their poses, one per voxel.");
+    is.input("frames", &In::frames, "the frames, read one after another");
     is.input("trajectory", &In::trajectory, "their poses");
     is.scale(&In::scale);
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
-    is.param("leaf", &Params::leaf)
+    is.param("voxel_size", &Params::voxel_size)
         .unit("m")
         .range(0.005, 100)
-        .doc("edge length of a cell, of which the mean of its points is written");
+        .doc("edge length of a voxel, of which the mean of its points is written");
     is.choice("format", &Params::format,
               {{"ply", MapFormat::ply, "binary PLY"}, {"pcd", MapFormat::pcd, "binary PCD"}})
         .doc("file format");
@@ -57,7 +57,7 @@ struct WriteMap : WholeStep {
                   std::to_string(in.trajectory->size()) +
                   " poses in the trajectory; wire the trajectory of these frames");
     const Eigen::Vector3d origin = map_origin(*in.trajectory);
-    VoxelMap map(params.leaf, origin);
+    VoxelMap map(params.voxel_size, origin);
     std::uint64_t points = 0, too_far = 0;
     std::vector<VoxelMap::FrameCells> cells(block);
     std::vector<std::uint64_t> counts(block);

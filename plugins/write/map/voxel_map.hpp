@@ -17,17 +17,18 @@
 namespace plumb {
 
 /// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should
-/// one come: what is open is what the sensor sees at present, however long the way. Closed tiles
+/// one come: what is open is what the sensor sees at present, however long the path. Closed tiles
 /// wait in a temporary file once they are many. What is written depends on the points in each cell
 /// and their frames' order alone.
 class VoxelMap {
  public:
   using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
-  /// Cells of edge length `leaf` [m], counted from `origin` [m, world]. Closed tiles take `memory`
-  /// [bytes] before they go to disk.
-  VoxelMap(double leaf, const Eigen::Vector3d& origin, std::size_t memory = std::size_t{32} << 20)
-      : leaf_(leaf), origin_(origin), memory_(memory) {}
+  /// Cells of edge length `voxel_size` [m], counted from `origin` [m, world]. Closed tiles take
+  /// `memory` [bytes] before they go to disk.
+  VoxelMap(double voxel_size, const Eigen::Vector3d& origin,
+           std::size_t memory = std::size_t{32} << 20)
+      : leaf_(voxel_size), origin_(origin), memory_(memory) {}
 
   /// The cells of one frame, tile by tile.
   struct FrameCells {

@@ -25,11 +25,11 @@ struct WriteMap2d : WholeStep {
 
   static void describe(Declaration<WriteMap2d>& is) {
     is.name("write.map2d").version(1).source("ROS map_server's format");
-    is.summary("Writes a grid map as robots' navigation reads it (PGM and YAML), and as PNG.");
+    is.summary("Writes a grid map as ROS map_server reads it (PGM and YAML), and as PNG.");
     is.input("map", &In::map, "the map");
     is.output("pgm", &Out::pgm, "NAME.pgm: black occupied, white free, grey unknown");
-    is.output("yaml", &Out::yaml, "NAME.yaml: where the image lies and how large a cell is");
-    is.output("png", &Out::png, "NAME.png: for looking at, shaded by probability");
+    is.output("yaml", &Out::yaml, "NAME.yaml: the image's origin and resolution");
+    is.output("png", &Out::png, "NAME.png: for viewing, shaded by probability");
     is.param("name", &Params::name)
         .doc("name of the files in the output folder, without an ending");
     is.param("occupied", &Params::occupied)

@@ -46,9 +46,9 @@ std::string metrics_json(const std::vector<std::pair<std::string, const Metrics*
     text += ",\n      \"notes\": " +
             list_of(metrics->notes, [](const auto& note) { return Json(note); });
     text += ",\n      \"edges\": " + list_of(metrics->edges, [](const EdgeRecord& e) {
-              return Json{{"i", e.i},           {"j", e.j},       {"kind", name_of(e.kind)},
-                          {"found", e.found},   {"kept", e.kept}, {"residual", e.residual},
-                          {"weight", e.weight}, {"fate", e.fate}};
+              return Json{{"i", e.i},           {"j", e.j},          {"kind", name_of(e.kind)},
+                          {"found", e.found},   {"kept", e.kept},    {"residual", e.residual},
+                          {"weight", e.weight}, {"status", e.status}};
             });
     text += "\n    }";
   }

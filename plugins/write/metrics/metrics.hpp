@@ -11,7 +11,7 @@ namespace plumb {
 
 /// {"stages": [{"stage": label, "numbers": {name: {"value", "unit"}}, "notes": [...], "edges":
 /// [{...}, ...]}, ...]}, in the order given; an edge a line: i, j, kind, found, kept, residual [m],
-/// weight, fate. Numbers are the shortest that read back as the same; one that is no finite number
+/// weight, status. Numbers are the shortest that read back as the same; one that is non-finite
 /// is null. The same metrics give the same bytes.
 std::string metrics_json(const std::vector<std::pair<std::string, const Metrics*>>& stages);
 

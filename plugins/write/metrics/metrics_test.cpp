@@ -13,7 +13,7 @@ Metrics sample() {
   metrics.add("residual", 0.1, "m")
       .add("worst", 1.0 / 3, "m")
       .add("none", std::numeric_limits<double>::quiet_NaN(), "m");
-  metrics.edges = {{0, 1, EdgeKind::sequential, 900, 120, 0.05, 0.99, "kept"},
+  metrics.edges = {{0, 1, EdgeKind::sequential, 900, 120, 0.05, 0.99, "accepted"},
                    {0, 7, EdgeKind::loop, 800, 30, 5.5, 0.01, "rejected"},
                    {3, 9, EdgeKind::neighbour, 700, 0, 0, 0, "no matches"}};
   metrics.notes = {"segments 4 are \"weak\""};
@@ -32,7 +32,7 @@ TEST(MetricsJson, HoldsStagesNumbersNotesAndEdges) {
   EXPECT_EQ(stage["notes"][0], "segments 4 are \"weak\"");
   ASSERT_EQ(stage["edges"].size(), 3u);
   EXPECT_EQ(stage["edges"][1]["kind"], "loop");
-  EXPECT_EQ(stage["edges"][1]["fate"], "rejected");
+  EXPECT_EQ(stage["edges"][1]["status"], "rejected");
   EXPECT_EQ(stage["edges"][1]["found"], 800);
   EXPECT_EQ(stage["edges"][1]["residual"].get<double>(), 5.5);
 }
@@ -43,7 +43,7 @@ TEST(MetricsJson, KeepsItsKeysInOneOrderAndAnEdgeALine) {
   EXPECT_THAT(
       text,
       testing::HasSubstr(
-          R"({"i":0,"j":7,"kind":"loop","found":800,"kept":30,"residual":5.5,"weight":0.01,"fate":"rejected"})"));
+          R"({"i":0,"j":7,"kind":"loop","found":800,"kept":30,"residual":5.5,"weight":0.01,"status":"rejected"})"));
   EXPECT_LT(text.find("\"residual\""), text.find("\"worst\""));
   EXPECT_EQ(text, metrics_json({{"", &metrics}}));
 }

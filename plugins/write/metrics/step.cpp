@@ -23,7 +23,7 @@ struct WriteMetrics : WholeStep {
   static void describe(Declaration<WriteMetrics>& is) {
     is.name("write.metrics")
         .version(1)
-        .summary("Writes the numbers of all stages, and each edge's fate, as JSON.");
+        .summary("Writes the metrics of all stages, and the status of each edge, as JSON.");
     is.input("metrics", &In::metrics, "any number of metrics; the label is the stage's name");
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");

@@ -28,10 +28,10 @@ struct WriteTrajectory : WholeStep {
     is.input("trajectory", &In::trajectory, "the poses to write");
     is.output("document", &Out::document, "the file");
     is.param("name", &Params::name).doc("name of the file in the output folder");
-    is.choice(
-          "format", &Params::format,
-          {{"tum", Format::tum, "stamp tx ty tz qx qy qz qw, a line a frame"},
-           {"kitti", Format::kitti, "the 12 numbers of a 3x4 matrix, a line a frame, no stamps"}})
+    is.choice("format", &Params::format,
+              {{"tum", Format::tum, "stamp tx ty tz qx qy qz qw, one line per frame"},
+               {"kitti", Format::kitti,
+                "the 12 numbers of a 3x4 matrix, one line per frame, no stamps"}})
         .doc("how the poses are written");
   }
 

@@ -9,8 +9,8 @@ namespace {
 
 struct WriteUncertainty : WholeStep {
   struct In {
-    One<Relations> uncertainty;
-    Each<Range> ranges;
+    One<Constraints> uncertainty;
+    Each<FrameRange> ranges;
     One<Trajectory> trajectory;
   };
   struct Out {
@@ -28,19 +28,20 @@ struct WriteUncertainty : WholeStep {
 
   static void describe(Declaration<WriteUncertainty>& is) {
     is.name("write.uncertainty").version(1).source("ours");
-    is.summary("Writes how well each frame's pose is known beside the first.");
+    is.summary("Writes the uncertainty of each frame's pose relative to the first.");
     is.input("uncertainty", &In::uncertainty, "of solve.pose_graph with 'uncertainty: true'");
     is.input("ranges", &In::ranges, "the frames of the segments that were solved");
-    is.input("trajectory", &In::trajectory, "the poses of all frames that the uncertainty is of");
+    is.input("trajectory", &In::trajectory,
+             "the poses of all frames that the uncertainty belongs to");
     is.output("document", &Out::document,
-              "CSV: stamp, position, its covariance in world axes [m^2], deviations of the "
-              "rotation [rad]");
+              "CSV: stamp, position, its covariance in world axes [m^2], standard deviations of "
+              "the rotation [rad]");
     is.output("metrics", &Out::metrics, "median and greatest standard deviation of the positions");
     is.param("name", &Params::name).doc("name of the file in the output folder");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     for (std::size_t k = 0; k < in.ranges.size(); ++k) ranges.push_back(*in.ranges.open(k));
     if (ranges.empty() || ranges.back().end != in.trajectory->size())
       throw Error("the ranges do not cover the trajectory of " +

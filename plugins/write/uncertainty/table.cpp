@@ -8,9 +8,9 @@
 
 namespace plumb {
 
-std::vector<PoseUncertainty> uncertainty_of(const Relations& relations, std::size_t segments) {
+std::vector<PoseUncertainty> uncertainty_of(const Constraints& constraints, std::size_t segments) {
   std::vector<PoseUncertainty> of(segments);
-  for (const AbsolutePose& pose : relations.absolute) {
+  for (const AbsolutePose& pose : constraints.absolute) {
     if (pose.i >= segments)
       throw Error("the uncertainty names segment " + std::to_string(pose.i) + ", but there are " +
                   std::to_string(segments) + ": wire ranges of the segments that were solved");
@@ -24,7 +24,7 @@ std::vector<PoseUncertainty> uncertainty_of(const Relations& relations, std::siz
 }
 
 std::vector<PoseUncertainty> of_frames(const std::vector<PoseUncertainty>& segments,
-                                       const std::vector<Range>& ranges, std::size_t frames) {
+                                       const std::vector<FrameRange>& ranges, std::size_t frames) {
   std::vector<PoseUncertainty> of(frames);
   // Where the first segment is held fixed the first frame is what all poses are relative to.
   const bool from_first =

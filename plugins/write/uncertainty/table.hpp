@@ -18,13 +18,13 @@ struct PoseUncertainty {
 
 /// One for each segment from the absolute poses that solve.pose_graph gives; zero for those that it
 /// holds fixed. Throws Error for a segment that does not exist.
-std::vector<PoseUncertainty> uncertainty_of(const Relations& relations, std::size_t segments);
+std::vector<PoseUncertainty> uncertainty_of(const Constraints& constraints, std::size_t segments);
 
 /// Of each frame: between the middle frames of two segments in proportion to the frames, before the
 /// first and after the last theirs. A first segment that is held fixed stands for the first frame,
 /// which has 0 alone.
 std::vector<PoseUncertainty> of_frames(const std::vector<PoseUncertainty>& segments,
-                                       const std::vector<Range>& ranges, std::size_t frames);
+                                       const std::vector<FrameRange>& ranges, std::size_t frames);
 
 /// CSV: a line of names, then for each frame stamp [s], x y z [m], the six numbers of the
 /// position's covariance (xx xy xz yy yz zz) [m^2], and the standard deviations about the frame's

@@ -26,8 +26,8 @@ PoseUncertainty of_size(double size) {
   return {size * Eigen::Matrix3d::Identity(), 2 * size * Eigen::Matrix3d::Identity()};
 }
 /// `sizes[k]` frames in segment k.
-std::vector<Range> ranges_of(const std::vector<std::uint32_t>& sizes) {
-  std::vector<Range> ranges;
+std::vector<FrameRange> ranges_of(const std::vector<std::uint32_t>& sizes) {
+  std::vector<FrameRange> ranges;
   std::uint32_t first = 0;
   for (const auto size : sizes) {
     ranges.emplace_back();
@@ -60,9 +60,9 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
 
 TEST(UncertaintyOfSegments, TurnsPositionAndRotationIntoTheWorldAndCountsWholeAngles) {
   const Pose facing_y(exp_rotation({0, 0, M_PI / 2}), {10, 20, 0});
-  Relations relations;
-  relations.absolute = {known(1, facing_y, diagonal({4, 1, 0.25}, {0.01, 0.02, 0.03}))};
-  const auto segments = uncertainty_of(relations, 3);
+  Constraints constraints;
+  constraints.absolute = {known(1, facing_y, diagonal({4, 1, 0.25}, {0.01, 0.02, 0.03}))};
+  const auto segments = uncertainty_of(constraints, 3);
   ASSERT_EQ(segments.size(), 3u);
   EXPECT_LT(
       (segments[1].position - Eigen::Matrix3d(Eigen::Vector3d(1, 4, 0.25).asDiagonal())).norm(),
@@ -81,9 +81,9 @@ TEST(UncertaintyOfSegments, IsThatOfPosesDrawnAtRandom) {
     root(k / 6, k % 6) = (k / 6 < 3 ? 0.05 : 0.004) * (2 * numbers.uniform() - 1);
   root += diagonal({0.05, 0.05, 0.05}, {0.004, 0.004, 0.004});
   const Pose T(exp_rotation({0.4, -0.2, 1.1}), {100, 50, 3});
-  Relations relations;
-  relations.absolute = {known(0, T, root * root.transpose())};
-  const PoseUncertainty uncertainty = uncertainty_of(relations, 1)[0];
+  Constraints constraints;
+  constraints.absolute = {known(0, T, root * root.transpose())};
+  const PoseUncertainty uncertainty = uncertainty_of(constraints, 1)[0];
 
   std::mt19937 random(1);
   std::normal_distribution<double> g(0, 1);
@@ -106,17 +106,17 @@ TEST(UncertaintyOfSegments, IsThatOfPosesDrawnAtRandom) {
 }
 
 TEST(UncertaintyOfSegments, IsZeroForThoseHeldFixed) {
-  Relations relations;
-  relations.absolute = {known(1, Pose(), Matrix6d::Identity())};
-  EXPECT_TRUE(uncertainty_of(relations, 2)[0].position.isZero());
-  EXPECT_TRUE(uncertainty_of(relations, 2)[0].rotation.isZero());
+  Constraints constraints;
+  constraints.absolute = {known(1, Pose(), Matrix6d::Identity())};
+  EXPECT_TRUE(uncertainty_of(constraints, 2)[0].position.isZero());
+  EXPECT_TRUE(uncertainty_of(constraints, 2)[0].rotation.isZero());
 }
 
 TEST(UncertaintyOfSegments, RefusesASegmentThatDoesNotExist) {
-  Relations relations;
-  relations.absolute = {known(3, Pose(), Matrix6d::Identity())};
-  EXPECT_THROW(uncertainty_of(relations, 3), Error);
-  EXPECT_NO_THROW(uncertainty_of(relations, 4));
+  Constraints constraints;
+  constraints.absolute = {known(3, Pose(), Matrix6d::Identity())};
+  EXPECT_THROW(uncertainty_of(constraints, 3), Error);
+  EXPECT_NO_THROW(uncertainty_of(constraints, 4));
 }
 
 TEST(UncertaintyOfFrames, GrowsEvenlyFromTheFirstFrameThatAllIsRelativeTo) {
@@ -182,14 +182,14 @@ TEST(UncertaintyTable,
   // Both know their rotation equally well in the world; the second is yawed by a quarter turn, so
   // that its roll is the first one's pitch.
   const Pose along, across(exp_rotation({0, 0, M_PI / 2}), {4, 0, 0});
-  Relations relations;
-  relations.absolute = {known(0, along, diagonal({1, 1, 1}, {2.5e-5, 1e-4, 2.25e-4})),
-                        known(1, across, diagonal({1, 1, 1}, {1e-4, 2.5e-5, 2.25e-4}))};
+  Constraints constraints;
+  constraints.absolute = {known(0, along, diagonal({1, 1, 1}, {2.5e-5, 1e-4, 2.25e-4})),
+                          known(1, across, diagonal({1, 1, 1}, {1e-4, 2.5e-5, 2.25e-4}))};
   Trajectory trajectory =
       along_x(6);  // middle frames 1 and 4; 2 is turned like the first segment, 3 like the second
   for (std::size_t k = 3; k < 6; ++k) trajectory.T_world_frame[k].rotation = across.rotation;
-  const auto rows = rows_of(
-      uncertainty_table(trajectory, of_frames(uncertainty_of(relations, 2), ranges_of({3, 3}), 6)));
+  const auto rows = rows_of(uncertainty_table(
+      trajectory, of_frames(uncertainty_of(constraints, 2), ranges_of({3, 3}), 6)));
   ASSERT_EQ(rows.size(), 6u);
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_NEAR(rows[k][10], k < 3 ? 0.01 : 0.02, 1e-6) << "roll of frame " << k;
@@ -213,7 +213,7 @@ TEST(UncertaintyTable, KeepsLargeStampsAndUtmCoordinates) {
 
 /// Three segments of three frames; the first fixed.
 StepRun wired() {
-  Relations uncertainty;
+  Constraints uncertainty;
   uncertainty.absolute = {known(1, Pose(), diagonal({0.04, 0.03, 0.02}, {1e-6, 1e-6, 1e-6})),
                           known(2, Pose(), diagonal({0.2, 0.1, 0.06}, {1e-6, 1e-6, 1e-6}))};
   StepRun step(*plumb_module());
@@ -253,7 +253,8 @@ TEST(WriteUncertainty, GivesTheMedianAndTheGreatestDeviationOfThePositions) {
 
 TEST(WriteUncertainty, WarnsWhereTheSolverGaveNone) {
   TestContext context;
-  const auto document = wired().with("uncertainty", Relations()).run<Document>("document", context);
+  const auto document =
+      wired().with("uncertainty", Constraints()).run<Document>("document", context);
   EXPECT_EQ(rows_of(document.bytes.text()).size(), 9u);
   ASSERT_EQ(context.warnings.size(), 1u);
   EXPECT_THAT(context.warnings[0], HasSubstr("uncertainty: true"));
@@ -271,7 +272,7 @@ TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
   };
   EXPECT_THAT(refusal(wired().with("trajectory", along_x(10))),
               HasSubstr("do not cover the trajectory of 10 frames"));
-  EXPECT_THAT(refusal(wired().each("ranges", std::vector<Range>())),
+  EXPECT_THAT(refusal(wired().each("ranges", std::vector<FrameRange>())),
               HasSubstr("do not cover the trajectory"));
   EXPECT_THAT(refusal(wired().each("ranges", ranges_of({4, 5}))),
               HasSubstr("names segment 2, but there are 2"));

@@ -51,7 +51,7 @@ def test_without_a_cache_folder_and_with_none_nothing_is_kept(folder):
     refused(plumb("cache", environment=homeless, code=WRONG_INPUT), "--cache-dir DIR")
     (folder / "thesis/plumb").mkdir(parents=True)
     (folder / "thesis/plumb/a.tex").write_text("mine")
-    plumb(*command, environment=homeless | {"XDG_CACHE_HOME": str(folder / "thesis")}).has("nothing is kept", "is no cache")
+    plumb(*command, environment=homeless | {"XDG_CACHE_HOME": str(folder / "thesis")}).has("nothing is kept", "is not a cache")
     said = plumb(*command, "--cache-dir", "none", environment={"PLUMB_CACHE_DIR": str(folder / "store")})
     assert "cache:" not in said.err and not (folder / "store").exists()
 

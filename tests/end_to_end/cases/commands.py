@@ -34,7 +34,7 @@ def test_a_wrong_command_line_exits_with_2(folder):
 
 
 def test_check_of_a_good_pipeline_shows_the_passes_of_each_loop(folder):
-    plumb("check", CASCADE, *INPUT).has("good", "gate", "4 m", "reach", "1.5 m")
+    plumb("check", CASCADE, *INPUT).has("good", "max_correspondence_distance", "4 m", "1.5 m")
 
 
 def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):
@@ -50,7 +50,7 @@ def test_check_says_that_the_input_is_missing(folder):
 
 
 def test_resolve_shows_each_value_with_its_origin(folder):
-    said = plumb("resolve", CASCADE, "--preset", CAR, *INPUT, "--set", "coarse.gate=3 m,1 m")
+    said = plumb("resolve", CASCADE, "--preset", CAR, *INPUT, "--set", "coarse.max_correspondence_distance=3 m,1 m")
     said.has("[3 m, 1 m]", "--set", "car_64line.yaml", "default of prune.kmeans", "segment.by_distance")
 
 

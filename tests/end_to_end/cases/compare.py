@@ -10,15 +10,15 @@ parameters:
   truth: {type: path, default: none}
 steps:
   log:      {use: source.carmen,        with: {path: $input}}
-  each:     {use: segment.by_distance,  from: log.trajectory, with: {length: 0.5 m, turn: 15 deg}}
+  each:     {use: segment.by_distance,  from: log.trajectory, with: {length: 0.5 m, max_rotation: 15 deg}}
   raw:      {use: segment.merge,        from: {frames: log.frames, ranges: each.ranges}}
-  scans:    {use: filter.voxel_grid,    from: raw, with: {leaf: 0.05 m}}
-  lined:    {use: estimate.normals,     from: scans, with: {planar: true, radius: 0.25 m, neighbours: none}}
+  scans:    {use: filter.voxel_grid,    from: raw, with: {voxel_size: 0.05 m}}
+  lined:    {use: estimate.normals,     from: scans, with: {planar: true, radius: 0.25 m, max_neighbours: none}}
   next:     {use: edges.sequential,     from: each.ranges}
   matched:
     use: register.ia_icp
     from: {edges: next, targets: lined, sources: scans, poses: each.poses}
-    with: {metric: line, hold: 0.1 m, reach: 0.3 m}
+    with: {metric: line, start_sigma: 0.1 m, max_correspondence_distance: 0.3 m}
   chained:  {use: apply.chain,          from: {poses: each.poses, registrations: matched}}
   straight: {use: apply.correction,     from: {trajectory: log.trajectory, ranges: each.ranges, poses: chained.poses}}
   error:
@@ -32,7 +32,7 @@ steps:
 LOOSE = """plumb: 1
 name: loose
 extends: chained.yaml
-set: {matched.reach: 0.001 m}
+set: {matched.max_correspondence_distance: 0.001 m}
 """
 
 
@@ -103,14 +103,14 @@ def test_a_name_that_leads_out_of_the_output_is_refused(folder):
     for name in ("../escaped", str(folder / "absolute"), "a/b", ".hidden", "..", "\\x1b[2J", "x" * 201):
         (folder / "chained.yaml").write_text(SMALL.replace("name: chained", f'name: "{name}"'))
         said = plumb(*command, "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_INPUT)
-        refused(said, "chained.yaml: its name", "is no name for a file or folder", "choose another")
+        refused(said, "chained.yaml: its name", "is not a name for a file or folder", "choose another")
         assert "\x1b" not in said.err, said
     (folder / "chained.yaml").write_text(SMALL)
     for name in ("../up", "/abs", ".hidden", "a/b"):
         said = plumb(*command[:2], "--variant", f"{name}={folder}/loose.yaml", "--input", rooms[0], "-o", folder / "out/inner", code=WRONG_COMMAND_LINE)
-        said.has("is no name for")
+        said.has("is not a name for")
     rooms[0].rename(folder / ".rooms")
-    refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is no name for")
+    refused(plumb(*command, "--input", folder / ".rooms", "-o", folder / "out/inner", code=WRONG_INPUT), "--input", "is not a name for")
     assert sorted(p.name for p in folder.iterdir()) == [".rooms", "chained.yaml", "loose.yaml"]
 
 
@@ -131,8 +131,8 @@ def test_an_input_that_is_given_twice_is_refused(folder):
 
 def test_says_which_variant_failed_on_which_input(folder):
     command, rooms = files(folder, seeds=[1])
-    (folder / "loose.yaml").write_text(LOOSE.replace("set: {matched.reach: 0.001 m}", "set: {matched.reach: 0.3 m}\n"
-                                                     "replace:\n  lined: {use: filter.voxel_grid, from: scans, with: {leaf: 0.06 m}}"))
+    (folder / "loose.yaml").write_text(LOOSE.replace("set: {matched.max_correspondence_distance: 0.001 m}", "set: {matched.max_correspondence_distance: 0.3 m}\n"
+                                                     "replace:\n  lined: {use: filter.voxel_grid, from: scans, with: {voxel_size: 0.06 m}}"))
     said = plumb(*command, "--input", rooms[0], "--quiet", code=STEP_FAILED)
     said.has("variant 'loose' on", "rooms_1", "step 'matched'", "needs normals")
     refused(plumb(*command, "--input", rooms[0], "--metric", "error.fine.atr", "--quiet", code=STEP_FAILED), "variant 'chained'",

@@ -13,10 +13,10 @@ steps:
   sequence: {use: source.sequence, with: {path: $input}}
   ranges: {use: segment.by_count, from: sequence.trajectory, with: {frames: 5}}
   merged: {use: segment.merge, from: {frames: sequence.frames, ranges: ranges.ranges}}
-  thinned: {use: filter.voxel_grid, from: merged, with: {leaf: 0.5 m}}
+  thinned: {use: filter.voxel_grid, from: merged, with: {voxel_size: 0.5 m}}
   segments: {use: estimate.normals, from: thinned, with: {radius: 2 m}}
   edges: {use: edges.overlap, from: {segments: segments, poses: ranges.poses}}
-  matches: {use: match.nearest, from: {edges: edges, segments: segments, poses: ranges.poses}, with: {max: 1 m}}
+  matches: {use: match.nearest, from: {edges: edges, segments: segments, poses: ranges.poses}, with: {max_correspondence_distance: 1 m}}
   bad: {use: test.misbehave, from: {edges: edges, edge: edges, matches: matches}%s}
   solved: {use: solve.pose_graph, from: {matches: bad, poses: ranges.poses}}
   last: {use: test.missolve, from: solved.poses}
@@ -147,7 +147,7 @@ def test_on_error_is_checked(folder):
     file = pipeline(folder, "dorp")
     said = plumb("--plugin-path", MODULES, "check", file, "--set", f"input={sequence('street')}", code=1)
     said.has("faults.yaml:14:", "on_error is stop or drop, not 'dorp'")
-    file.write_text(file.read_text().replace(", on_error: dorp", "").replace("with: {max: 1 m}", "with: {max: 1 m}, on_error: drop")
+    file.write_text(file.read_text().replace(", on_error: dorp", "").replace("with: {max_correspondence_distance: 1 m}", "with: {max_correspondence_distance: 1 m}, on_error: drop")
                     .replace("from: sequence.trajectory, with: {frames: 5}", "from: sequence.trajectory, with: {frames: 5}, on_error: drop"))
     plumb("--plugin-path", MODULES, "check", file, "--set", f"input={sequence('street')}", code=1).has("on_error: drop is for steps that give an edge's Matches")
 

@@ -143,7 +143,7 @@ def test_pipes_in_a_sequence(folder):
 def test_a_pipe_as_graph_log_plan_or_truth(folder):
     pipe = folder / "pipe"
     os.mkfifo(pipe)
-    for use, rest in [("source.g2o", "poses: {use: write.graph, from: {poses: read.poses, relations: read.relations}}"),
+    for use, rest in [("source.g2o", "poses: {use: write.graph, from: {poses: read.poses, constraints: read.constraints}}"),
                       ("source.carmen", "poses: {use: write.trajectory, from: {trajectory: read.trajectory}}"),
                       ("source.trajectory", "poses: {use: write.trajectory, from: {trajectory: read.trajectory}}")]:
         pipeline = folder / "a.yaml"

@@ -1,4 +1,4 @@
-"""IA-ICP against the usual ICP on the same pieces of the way: the paper's claim (50.22 % fewer iterations), and how much the early end costs."""
+"""IA-ICP against standard ICP on the same pieces of the path: the paper's claim (50.22 % fewer iterations), and how much the early end costs."""
 import json
 
 import numpy as np
@@ -14,14 +14,14 @@ steps:
   log:     {use: source.carmen,       with: {path: $input}}
   each:    {CUT}
   raw:     {use: segment.merge,       from: {frames: log.frames, ranges: each.ranges}}
-  scans:   {use: filter.voxel_grid,   from: raw, with: {leaf: 0.05 m}}
+  scans:   {use: filter.voxel_grid,   from: raw, with: {voxel_size: 0.05 m}}
   next:    {use: gate.distance,       from: scans}
   matched: {use: register.STEP,       from: {edges: next.edges, targets: scans, sources: scans, poses: each.poses}}
   chained: {use: apply.chain,         from: {poses: each.poses, registrations: matched}}
-  graph:   {use: write.graph,         from: {poses: chained.poses, relations: chained.relations}}
+  graph:   {use: write.graph,         from: {poses: chained.poses, constraints: chained.constraints}}
   metrics: {use: write.metrics,       from: {metrics: {chained: chained.metrics}}}
 """
-BY_DISTANCE = "use: segment.by_distance, from: log.trajectory, with: {length: 0.2 m, turn: 5 deg}"
+BY_DISTANCE = "use: segment.by_distance, from: log.trajectory, with: {length: 0.2 m, max_rotation: 5 deg}"
 BY_COUNT = "use: segment.by_count, from: log.trajectory, with: {frames: 5}"  # one second of a simulated drive
 
 

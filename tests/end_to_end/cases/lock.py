@@ -45,7 +45,7 @@ def set_time_back(file, times):
 
 def test_a_locked_run_leaves_the_same_bytes(folder):
     street = sequence("street")
-    plumb("run", CASCADE, "--preset", CAR, "--set", f"input={street}", "--set", f"truth={street / 'truth.tum'}", "--set", "coarse.gate=3m,1.5m", "-o", folder / "out")
+    plumb("run", CASCADE, "--preset", CAR, "--set", f"input={street}", "--set", f"truth={street / 'truth.tum'}", "--set", "coarse.max_correspondence_distance=3m,1.5m", "-o", folder / "out")
     repeat(folder / "out/run.lock.yaml", folder / "again", "--threads", 1)
     assert files_of(folder / "out") == files_of(folder / "again")
     repeat(folder / "out/run.lock.yaml", folder / "out")  # into the same folder

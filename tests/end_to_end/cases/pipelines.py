@@ -55,7 +55,7 @@ def metrics_tell_what_happened(out, result=None, falls=2):
         for edge in edges:
             assert edge["i"] != edge["j"] and 0 <= edge["kept"] <= edge["found"] and 0 <= edge["weight"] <= 1, edge
             assert edge["kind"] in ("sequential", "neighbour", "loop"), edge
-            assert edge["fate"] in ("kept", "down-weighted", "rejected", "no matches"), edge
+            assert edge["status"] in ("accepted", "down-weighted", "rejected", "no matches"), edge
     rmse = numbers(stages["match_rmse"])
     assert list(rmse) == ["before", "drift", "coarse", "fine"]
     assert rmse["fine"] * falls < rmse["before"], rmse
@@ -121,7 +121,7 @@ def test_a_preset_is_also_a_pipeline_by_itself(folder):
 def test_preset_handheld_solid_state_straightens_a_walk(folder):
     walk, out = sequence("walk"), folder / "out"
     cascade(walk, out, "--preset", HANDHELD, "--set", f"truth={walk / 'truth.tum'}")
-    # The walk drifts by less than the pairs' cap, so its match RMSE starts near the noise: the ATE is what tells.
+    # The walk drifts by less than the pairs' largest distance, so its match RMSE starts near the noise: the ATE is what tells.
     metrics_tell_what_happened(out, straightens(walk, out, factor=3), falls=1.2)
 
 

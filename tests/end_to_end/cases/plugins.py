@@ -59,7 +59,7 @@ def test_builds_without_one_folder_and_runs_what_is_left(folder):
     refuses_the_cascade(folder, left_out, program=program)
     file = folder / "without.yaml"
     file.write_text(f"plumb: 1\nname: without\nextends: {CASCADE}\nremove: [denoised]\nreplace:\n"
-                    "  voxels: {use: filter.voxel_grid, from: merged, with: {leaf: $leaf}}\n")
+                    "  voxels: {use: filter.voxel_grid, from: merged, with: {voxel_size: $voxel_size}}\n")
     plumb("run", file, "--set", f"input={sequence('straight')}", "--set", "ranges.frames=5", "-o", folder / "out", program=program)
 
 

@@ -63,7 +63,7 @@ def test_it_straightens_a_street_without_a_preset(folder):
     assert result["after"]["ate_rmse"] < 0.1 and result["after"]["ate_rmse"] * 10 < result["before"]["ate_rmse"], result
     assert result["after"]["ghosting"] < 1.1 * result["after"]["ghosting_truth"], result
     loops = stages_of(out)["loops"]["edges"]
-    assert any(e["fate"] == "kept" for e in loops) and all(e["fate"] for e in loops), loops
+    assert any(e["status"] == "accepted" for e in loops) and all(e["status"] for e in loops), loops
 
 
 def test_it_straightens_a_walk_without_a_preset(folder):

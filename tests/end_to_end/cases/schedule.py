@@ -32,9 +32,9 @@ def overlay(folder, text):
 
 
 def test_a_row_is_changed_by_set(folder):
-    said = plumb("check", CASCADE, "--set", "input=.", "--set", "coarse.gate=3 m,2.5 m,2 m,1.5 m")
+    said = plumb("check", CASCADE, "--set", "input=.", "--set", "coarse.max_correspondence_distance=3 m,2.5 m,2 m,1.5 m")
     said.has("3 m", "2.5 m", "2 m", "1.5 m")
-    said = run(folder, "--set", "coarse.gate=3 m,2.5 m,2 m,1.5 m", "--set", "fine.reach=1 m,0.5 m")
+    said = run(folder, "--set", "coarse.max_correspondence_distance=3 m,2.5 m,2 m,1.5 m", "--set", "fine.max_correspondence_distance=1 m,0.5 m")
     assert 3 <= passes(said, "coarse") <= 4 and passes(said, "fine") >= 5
 
 
@@ -42,12 +42,12 @@ def test_the_number_of_passes_is_changed_by_an_overlay(folder):
     file = overlay(folder, """replace:
   coarse:
     repeat:
-      passes: {gate: [2 m, 1 m]}
+      passes: {max_correspondence_distance: [2 m, 1 m]}
       carry: {poses: solved}
     start: {poses: drift.solved}
     steps:
       matches: {use: match.fpfh_mutual, from: {edges: neighbours, features: fpfh}}
-      near:    {use: prune.distance,    from: {matches: matches, poses: poses}, with: {max: $gate}}
+      near:    {use: prune.distance,    from: {matches: matches, poses: poses}, with: {max_correspondence_distance: $max_correspondence_distance}}
       kept:    {use: prune.kmeans,      from: {matches: near, poses: poses}}
       solved:  {use: solve.pose_graph,  from: {matches: kept, poses: poses}}
 """)
@@ -56,7 +56,7 @@ def test_the_number_of_passes_is_changed_by_an_overlay(folder):
 
 def test_a_preset_sets_a_row_and_a_threshold_and_changes_the_result(folder):
     street = sequence("street")
-    file = overlay(folder, "set:\n  coarse.gate: [5 m, 3 m, 2 m]\n  coarse.kept.fewest: 8\n  ranges.frames: 6\n")
+    file = overlay(folder, "set:\n  coarse.max_correspondence_distance: [5 m, 3 m, 2 m]\n  coarse.kept.min_pairs: 8\n  ranges.frames: 6\n")
     cascade(street, folder / "a", "--preset", file)
     cascade(street, folder / "b", *SIX)
     improved(street, folder / "a")
@@ -92,7 +92,7 @@ def test_two_steps_change_places(folder):
     """Points at borders are dropped before far pairs."""
     run(folder, pipeline=overlay(folder, """replace:
   coarse.inner: {use: prune.edge_points, from: matches}
-  coarse.near:  {use: prune.distance, from: {matches: inner, poses: poses}, with: {max: $gate}}
+  coarse.near:  {use: prune.distance, from: {matches: inner, poses: poses}, with: {max_correspondence_distance: $max_correspondence_distance}}
   coarse.kept:  {use: prune.kmeans, from: {matches: near, poses: poses}}
 """))
 
@@ -130,11 +130,11 @@ def test_no_c_plus_plus_outside_the_plugins_names_a_step(folder):
 
 
 def test_no_c_plus_plus_outside_the_plugins_names_a_stage_or_parameter_of_the_cascade(folder):
-    """Paths as `coarse.gate`, and the names of the pipeline's parameters that are no words of every day."""
+    """Paths as `coarse.max_correspondence_distance`, and the names of the pipeline's parameters that are no words of every day."""
     text = CASCADE.read_text()
     paths = {f"{stage}.{name}" for stage in ("drift", "coarse", "fine") for name in re.findall(r"^ +([a-z]\w*):", text, re.M)}
     odd = {name for name in re.findall(r"^  (\w+): +\{type:", text, re.M) if "_" in name}
-    assert len(odd) > 5 and "coarse.gate" in paths
+    assert len(odd) > 5 and "coarse.max_correspondence_distance" in paths
     pattern = re.compile("|".join(rf"[\"$ ]{re.escape(name)}\b" for name in paths | odd))
     found = [f"{file.relative_to(SOURCE)}: {match[0]}" for file in code_files() for match in pattern.finditer(code_of(file))]
     assert not found, found

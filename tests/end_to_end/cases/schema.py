@@ -84,8 +84,8 @@ MISTAKES = {
     "an unknown key": ("use: describe.esf,               from:", "use: describe.esf,               form:"),
     "an unknown parameter": ("with: {frames: 60}", "with: {frame: 60}"),
     "an unknown port": ("from: {frames: ranged, ranges: ranges.ranges}", "from: {frames: ranged, range: ranges.ranges}"),
-    "an unknown unit": ("cap:       {type: length, default: 0.5 m", "cap:       {type: length, default: 0.5 ell"),
-    "a length without a unit": ("leaf:      {type: length, default: 0.3 m", "leaf:      {type: length, default: 0.3"),
+    "an unknown unit": ("loss_to:   {type: length, default: 0.5 m", "loss_to:   {type: length, default: 0.5 ell"),
+    "a length without a unit": ("voxel_size: {type: length, default: 0.3 m", "voxel_size: {type: length, default: 0.3"),
     "an angle for a length": ("default: 300 m", "default: 300 deg"),
     "a number that should be whole": ("{frames: 60}", "{frames: 6.5}"),
     "a number out of range": ("{frames: 60}", "{frames: 0}"),
@@ -94,7 +94,7 @@ MISTAKES = {
     "another version of the language": ("plumb: 1", "plumb: 2"),
     "no steps": ("steps:\n  # 2.2", "stages:\n  # 2.2"),
     "a name that is none": ("  ranges:   {use", "  2ranges:   {use"),
-    "a yes for a truth value": ("loss: geman_mcclure,", "loss: geman_mcclure, hold_sequential: yes,"),
+    "a yes for a truth value": ("loss: geman_mcclure,", "loss: geman_mcclure, sequential_huber: yes,"),
     "an unknown key of a loop": ("if_exhausted: accept", "if_exhausted: accept\n      colour: red"),
     "until without a bound": ("falls_by_less_than: 2 %", "falls: 2 %"),
     "an unknown ending": ("if_exhausted: accept", "if_exhausted: shrug"),
@@ -120,10 +120,10 @@ def test_and_the_command_refuse_the_same_mistakes(folder):
 # Wrong for the command alone: a schema cannot follow names.
 BEYOND_A_SCHEMA = {
     "a wire from a step that is not there": ("{frames: ranged, ranges: ranges.ranges}", "{frames: rangde, ranges: ranges.ranges}"),
-    "a wire of another type": ("from: merged, with: {neighbours", "from: sequence.frames, with: {neighbours"),
-    "a value from nowhere": ("leaf: $map_leaf", "leaf: $map_leav"),
+    "a wire of another type": ("from: merged, with: {mean_k", "from: sequence.frames, with: {mean_k"),
+    "a value from nowhere": ("voxel_size: $map_voxel_size", "voxel_size: $map_voxel_sise"),
     "a parameter that nothing uses": ("parameters:\n", "parameters:\n  spare: {type: number, default: 1}\n"),
-    "rows of different lengths": ("gate: [4 m, 2 m, 1 m]", "gate: [4 m, 2 m, 1 m]\n        other: [1, 2]"),
+    "rows of different lengths": ("max_correspondence_distance: [4 m, 2 m, 1 m]", "max_correspondence_distance: [4 m, 2 m, 1 m]\n        other: [1, 2]"),
     "a circle": ("use: segment.by_count,           from: sequence.trajectory", "use: segment.by_count, from: straight"),
 }
 

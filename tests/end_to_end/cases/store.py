@@ -65,7 +65,7 @@ def test_one_and_two_threads_fill_and_use_a_store_alike(folder):
 
 def test_after_a_change_only_what_it_touches_runs(folder):
     _, _, first = run(folder, "first")
-    _, _, changed = run(folder, "changed", "--set", "fine.reach=1.5m,1m,0.8m,0.6m,0.5m,0.4m,0.35m,0.3m")
+    _, _, changed = run(folder, "changed", "--set", "fine.max_correspondence_distance=1.5m,1m,0.8m,0.6m,0.5m,0.4m,0.35m,0.3m")
     assert 2 < changed < 0.7 * first, (first, changed)
     assert files_of(folder / "changed")["trajectory.tum"] != files_of(folder / "first")["trajectory.tum"]
 
@@ -98,7 +98,7 @@ def test_damage_is_noticed_made_again_and_said(folder):
 def test_a_folder_that_is_no_store_and_one_of_a_later_program(folder):
     (folder / "thesis").mkdir()
     (folder / "thesis/a.tex").write_text("mine")
-    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--cache-dir", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is no cache")
+    refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--cache-dir", folder / "thesis", "-o", folder / "out", code=WRONG_INPUT), "is not a cache")
     (folder / "store").mkdir()
     (folder / "store/plumb-store").write_text("plumb store 3\n")
     refused(plumb("run", CASCADE, "--set", f"input={sequence('street')}", "--cache-dir", folder / "store", "-o", folder / "out", code=WRONG_INPUT), "another format")
@@ -125,7 +125,7 @@ def test_a_full_disk_costs_the_keeping_alone(folder):
         os.system(f"umount {small}")
 
 
-LAST_GATE = "fine.reach=1.5m,1m,0.7m,0.5m,0.4m"
+LAST_DISTANCE = "fine.max_correspondence_distance=1.5m,1m,0.7m,0.5m,0.4m"
 
 
 def test_explain_names_the_first_difference(folder):
@@ -133,11 +133,11 @@ def test_explain_names_the_first_difference(folder):
     said.has("segments: made, all", "this store knows no earlier run of it")
     said, _, _ = run(folder, "again", "--explain")
     said.has("segments: reused, all", "ranged: passes through\n", "fine.matches, pass 1: reused, all")
-    said, _, made = run(folder, "gate", "--set", LAST_GATE, "--explain")
+    said, _, made = run(folder, "gate", "--set", LAST_DISTANCE, "--explain")
     lines = said.out.splitlines()
     explained = {line.split(":")[0]: line for line in lines if ": made" in line or ": reused" in line or " made: " in line}
     changed = next(line for line in lines if line.startswith("fine.matches, pass 5"))
-    assert "max was 0.5 m, is 0.4 m" in changed and ": made" in changed, said
+    assert "max_correspondence_distance was 0.5 m, is 0.4 m" in changed and ": made" in changed, said
     for step, line in explained.items():
         early = step in ("segments", "esf", "fpfh", "neighbours") or step.startswith(("drift.", "coarse.", "fine.")) and "pass 5" not in step and not step.endswith(
             ("pass 6", "pass 7", "pass 8"))
@@ -145,7 +145,7 @@ def test_explain_names_the_first_difference(folder):
     assert "input 'matches'" in explained["fine.solved, pass 5"]
     run(folder, "other", "--set", "max_range=40m")
     said, _, _ = run(folder, "back", "--explain")
-    said.has("ranged: passes through: max was 40 m, is 300 m")
+    said.has("ranged: passes through: max_range was 40 m, is 300 m")
 
 
 def test_two_runs_at_once_on_one_store(folder):

@@ -106,7 +106,7 @@ def test_pipes_and_links_in_a_store_are_never_opened(folder):
         for blob in blobs(folder)[::7]:
             blob.unlink()
             put(blob)
-        said = run(folder, "out", "--executor", "process").has("damaged result", "is no regular file")
+        said = run(folder, "out", "--executor", "process").has("damaged result", "is not a regular file")
         assert files_of(folder / "out") == expected and theirs.read_text() == "not to be touched", said
         blob = blobs(folder)[0]
         blob.unlink()
@@ -115,14 +115,14 @@ def test_pipes_and_links_in_a_store_are_never_opened(folder):
         lock = folder / "store/index.lock"
         lock.unlink()
         put(lock)
-        run(folder, "out").has("its index is not used", "index.lock' is no regular file")
+        run(folder, "out").has("its index is not used", "index.lock' is not a regular file")
         refused(plumb("cache", "prune", "--size", "0B", "--cache-dir", folder / "store", code=WRONG_INPUT),
                 "its index cannot be used", "remove it", "nothing was removed")
         lock.unlink()
         mark = folder / "store/plumb-store"
         mark.unlink()
         put(mark)
-        refused(run(folder, "no", "--quiet", code=WRONG_INPUT), "plumb-store' is no regular file")
+        refused(run(folder, "no", "--quiet", code=WRONG_INPUT), "plumb-store' is not a regular file")
         mark.unlink()
         mark.write_text("plumb store 2\n")
         mark.chmod(0o600)

@@ -147,7 +147,7 @@ def test_bombs(folder):
     lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x]"] + [f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9)}]" for k in range(1, 10)]
     place.run(place.file("plumb: 1\n" + "\n".join(lines) + "\n" + reads()[9:]))
     place.run(place.file("plumb: 1\nsteps: " + "[" * 20000 + "\n"))
-    place.run(place.file(reads(map="leaf: 1e-300")))
+    place.run(place.file(reads(map="voxel_size: 1e-300")))
 
 
 def test_modules(folder):

@@ -50,7 +50,7 @@ def test_a_truth_that_is_missing_is_noticed_before_anything_runs(folder):
 
 
 def test_a_file_instead_of_a_folder(folder):
-    refused(cascade(CASCADE, folder / "out", code=STEP_FAILED), str(CASCADE), "is not a folder", "give")
+    refused(cascade(CASCADE, folder / "out", code=STEP_FAILED), str(CASCADE), "is not a directory", "give")
     nothing_left(folder / "out")
 
 
@@ -222,12 +222,12 @@ def test_an_unknown_parameter(folder):
 
 
 def test_an_unknown_unit(folder):
-    wrong_pipeline(folder, "gate: [4 m,", "gate: [4 mtr,", "mtr", "Known: m, cm")
+    wrong_pipeline(folder, "max_correspondence_distance: [4 m,", "max_correspondence_distance: [4 mtr,", "mtr", "Known: m, cm")
 
 
 def test_an_unknown_name_behind_set(folder):
-    for setting, word in (("coarse.gaet=2m", "Did you mean 'gate'?"), ("laef=1m", "Did you mean 'leaf'?"), ("coarse.kept.clustres=3", "clustres"), ("leaf=1", "unit"),
-                          ("leaf", "=")):
+    for setting, word in (("coarse.max_corespondence_distance=2m", "Did you mean 'max_correspondence_distance'?"), ("voxel_sice=1m", "Did you mean 'voxel_size'?"), ("coarse.kept.clustres=3", "clustres"), ("voxel_size=1", "unit"),
+                          ("voxel_size", "=")):
         said = plumb("check", CASCADE, "--set", "input=.", "--set", setting, code=WRONG_INPUT)
         said.has("--set", word)
 
@@ -251,7 +251,7 @@ def test_nan_and_infinite_points_are_dropped_and_counted(folder):
     options = ["--set", "ranges.frames=2", "--set"]
     for name, s in (("a", clean), ("b", spoilt_sequence)):
         said = plumb("run", CASCADE, *options, f"input={s}", "-o", folder / name)
-    said.has("30 points with a coordinate that is no number dropped")
+    said.has("30 points with a non-finite coordinate dropped")
     for file in ("trajectory.tum", "map.ply", "graph.g2o", "metrics.json"):
         assert (folder / "a" / file).read_bytes() == (folder / "b" / file).read_bytes(), file
 
@@ -282,9 +282,9 @@ def test_two_segments_that_do_not_overlap_are_said_and_gone_on_with(folder):
     said = plumb("run", CASCADE, "--set", f"input={s}", "--set", "ranges.frames=3", "-o", folder / "out")
     said.has("weak:", "parts")
     assert len((folder / "out/trajectory.tum").read_text().splitlines()) == 12
-    fates = {(e["i"], e["j"]): e["fate"] for stage in json.loads((folder / "out/metrics.json").read_text())["stages"]
+    statuses = {(e["i"], e["j"]): e["status"] for stage in json.loads((folder / "out/metrics.json").read_text())["stages"]
              if stage["stage"] == "drift" for e in stage["edges"]}
-    assert fates[1, 2] == "no matches" and fates[0, 1] == "kept", fates
+    assert statuses[1, 2] == "no matches" and statuses[0, 1] == "accepted", statuses
 
 
 def test_odometry_in_millimetres_ends_in_one_verdict_with_the_likely_causes(folder):

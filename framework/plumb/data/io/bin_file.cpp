@@ -15,10 +15,11 @@ CloudFile read_bin(const std::filesystem::path& file) {
   const std::string_view data = bytes.view();
   constexpr std::size_t point_size = 4 * sizeof(float);
   if (data.size() % point_size != 0)
-    io::refuse(file, "has " + std::to_string(data.size()) +
-                         " bytes, which is no multiple of 16 (x y z intensity as float32), so it "
-                         "is cut short or "
-                         "of another format: copy it again");
+    io::refuse(file,
+               "has " + std::to_string(data.size()) +
+                   " bytes, which is not a multiple of 16 (x y z intensity as float32), so it "
+                   "is cut short or "
+                   "of another format: copy it again");
   CloudFile result;
   Cloud& cloud = result.cloud;
   const std::size_t points = data.size() / point_size;

@@ -9,7 +9,7 @@
 namespace plumb {
 
 /// Reads a .bin file. Points with a non-finite coordinate are dropped and counted.
-/// Throws Error: cannot be opened, a size that is no multiple of 16 bytes (cut short).
+/// Throws Error: cannot be opened, a size that is not a multiple of 16 bytes (cut short).
 CloudFile read_bin(const std::filesystem::path& file);
 
 }  // namespace plumb

@@ -46,7 +46,7 @@ TEST_F(BinFile, MayBeEmptyButNotCutShort) {
     read_bin(write("cut.bin", {1, 2, 3, 4, 5, 6, 7, 8}, 1));
     FAIL() << "not refused";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cut.bin: has 31 bytes, which is no multiple of 16"));
+    EXPECT_THAT(error.what(), HasSubstr("cut.bin: has 31 bytes, which is not a multiple of 16"));
   }
 }
 

@@ -87,7 +87,7 @@ Hash128 key_of(const FrameFile& file) {
     refuse(file.path, std::string("the frame cannot be opened (") + std::strerror(errno) +
                           "): restore the file or take it off the list");
   if (!S_ISREG(status.st_mode))
-    refuse(file.path, "is not a regular file, so it is no frame: remove it");
+    refuse(file.path, "is not a regular file, so it is not a frame: remove it");
   Hasher hasher;
   hasher.text(file.name);
   if (!add_identity(hasher, file.path))
@@ -98,8 +98,8 @@ Hash128 key_of(const FrameFile& file) {
 void require_folder(const fs::path& path, const std::string& cure) {
   std::error_code error;
   if (fs::is_directory(path, error)) return;
-  refuse(path,
-         fs::exists(path, error) ? "is not a folder: " + cure : "there is no such folder: " + cure);
+  refuse(path, fs::exists(path, error) ? "is not a directory: " + cure
+                                       : "there is no such folder: " + cure);
 }
 
 void require_pose_each(const fs::path& folder, std::size_t frames, const fs::path& poses_from,

@@ -20,7 +20,7 @@ Pose pose_of(const Path& file, std::size_t line, std::span<const double, 12> v) 
   const double off = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= 1e-2) || r.determinant() < 0)
     refuse(file, line,
-           "its 3x3 part is no rotation (off by " + fixed(off, 3) +
+           "its 3x3 part is not a rotation (off by " + fixed(off, 3) +
                "): give a 3x4 matrix [R | t], row by row");
   return {r, Eigen::Vector3d(v[3], v[7], v[11])};
 }

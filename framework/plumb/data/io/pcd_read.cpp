@@ -88,7 +88,7 @@ void read_per_field(const Path& file, std::size_t line, const std::vector<std::s
 }
 
 void finish(const Path& file, Header& header) {
-  if (header.fields.empty()) refuse(file, "has no FIELDS line before DATA: this is no PCD file");
+  if (header.fields.empty()) refuse(file, "has no FIELDS line before DATA: this is not a PCD file");
   for (const auto& field : header.fields) {
     if (field.count < 1 || field.count > most_per_field)
       refuse(file, "field " + in_quotes(field.name) + " has COUNT " + std::to_string(field.count) +
@@ -143,12 +143,12 @@ Header read_header(const Path& file, Lines& lines) {
       finish(file, header);
       return header;
     } else {
-      refuse(
-          file, at,
-          in_quotes(key) + " is no keyword of a PCD header: this is no PCD file, or a damaged one");
+      refuse(file, at,
+             in_quotes(key) +
+                 " is not a keyword of a PCD header: this is not a PCD file, or a damaged one");
     }
   }
-  refuse(file, "ends before a DATA line: this is no PCD file, or one cut short");
+  refuse(file, "ends before a DATA line: this is not a PCD file, or one cut short");
 }
 
 /// The named numbers of a record; of a field with COUNT n the first. In packed data a field's

@@ -54,7 +54,7 @@ Number number_of(const Path& file, std::size_t line, std::string_view word) {
   if (word == "double" || word == "float64") return Number::f64;
   refuse(file, line,
          in_quotes(word) +
-             " is no PLY type: use char, uchar, short, ushort, int, uint, float or double");
+             " is not a PLY type: use char, uchar, short, ushort, int, uint, float or double");
 }
 
 void read_property(const Path& file, std::size_t at, std::string_view line, Header& header) {
@@ -62,13 +62,13 @@ void read_property(const Path& file, std::size_t at, std::string_view line, Head
     refuse(file, at, "names a property before any element: correct the header");
   auto& properties = header.elements.back().properties;
   if (properties.size() == most_properties)
-    refuse(file, at, "names more than 1024 properties: this is no PLY file that could be read");
+    refuse(file, at, "names more than 1024 properties: this is not a PLY file that could be read");
   Property property;
   auto word = next_word(line);
   if (word == "list") {
     property.length = number_of(file, at, next_word(line));
     if (is_float(*property.length))
-      refuse(file, at, "gives a list a length that is no whole number: use uchar or int");
+      refuse(file, at, "gives a list a length that is not a whole number: use uchar or int");
     word = next_word(line);
   }
   property.number = number_of(file, at, word);
@@ -80,7 +80,7 @@ void read_property(const Path& file, std::size_t at, std::string_view line, Head
 Header read_header(const Path& file, Lines& lines) {
   std::string_view line;
   if (!lines.next(line) || line != "ply")
-    refuse(file, "does not begin with the line 'ply': this is no PLY file");
+    refuse(file, "does not begin with the line 'ply': this is not a PLY file");
   Header header;
   bool has_format = false;
   while (lines.next(line)) {
@@ -100,20 +100,20 @@ Header read_header(const Path& file, Lines& lines) {
       element.name = next_word(line);
       const auto count = next_word(line);
       if (!to_number(count, element.count))
-        refuse(file, at, in_quotes(count) + " is no number of elements: correct the header");
+        refuse(file, at, in_quotes(count) + " is not a number of elements: correct the header");
       header.elements.push_back(std::move(element));
     } else if (key == "property") {
       read_property(file, at, line, header);
     } else if (key == "end_header") {
-      if (!has_format) refuse(file, "its header has no 'format' line: this is no PLY file");
+      if (!has_format) refuse(file, "its header has no 'format' line: this is not a PLY file");
       return header;
     } else {
-      refuse(
-          file, at,
-          in_quotes(key) + " is no keyword of a PLY header: this is no PLY file, or a damaged one");
+      refuse(file, at,
+             in_quotes(key) +
+                 " is not a keyword of a PLY header: this is not a PLY file, or a damaged one");
     }
   }
-  refuse(file, "ends before an 'end_header' line: this is no PLY file, or one cut short");
+  refuse(file, "ends before an 'end_header' line: this is not a PLY file, or one cut short");
 }
 
 [[noreturn]] void cut_short(const Path& file, const Element& element) {

@@ -127,7 +127,7 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
         {"plumb: 1\n", "a pipeline"},
         {"{\"stages\": []}", "JSON"},
         {std::string("\x01\0\x02", 3), "binary data"}})
-    EXPECT_THAT(said(text), AllOf(HasSubstr("is no TUM trajectory, it looks like " + kind),
+    EXPECT_THAT(said(text), AllOf(HasSubstr("is not a TUM trajectory, it looks like " + kind),
                                   HasSubstr("stamp tx ty tz")));
   EXPECT_THAT(refusal([&] { read_tum(folder.path() / "none.tum"); }), HasSubstr("No such file"));
 

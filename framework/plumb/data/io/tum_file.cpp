@@ -23,7 +23,7 @@ Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
   const FileBytes bytes(file);
   const std::string kind = kind_of_content(bytes.view());
   if (!kind.empty() && kind != "a trajectory (TUM)" && kind != "lines of numbers")
-    refuse(file, "is no TUM trajectory, it looks like " + kind +
+    refuse(file, "is not a TUM trajectory, it looks like " + kind +
                      ": give a text file with a line 'stamp tx ty tz qx qy qz qw' for each pose, "
                      "as a run's trajectory.tum");
   Lines lines(bytes.view());
@@ -33,9 +33,10 @@ Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
     Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
     const double norm = q.coeffs().stableNorm();
     if (!(norm > 1e-6))
-      refuse(file, lines.number(),
-             "the quaternion has norm 0, so it is no rotation: correct the line (no rotation is 0 "
-             "0 0 1)");
+      refuse(
+          file, lines.number(),
+          "the quaternion has norm 0, so it is not a rotation: correct the line (no rotation is 0 "
+          "0 0 1)");
     if (!std::isfinite(norm))
       refuse(file, lines.number(), "the quaternion is too large: its norm is 1; correct the line");
     q.coeffs() /= norm;

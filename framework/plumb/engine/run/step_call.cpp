@@ -30,8 +30,9 @@ class RunCollection final : public Collection {
 /// Those of `frames` that segment k is made of.
 std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k, const Source& frames) const {
   for (std::size_t p = 0; p < inputs_.size(); ++p)
-    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<Range>()) {
-      const auto range = inputs_[p].front().run->value(inputs_[p].front().output, k).as<Range>();
+    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<FrameRange>()) {
+      const auto range =
+          inputs_[p].front().run->value(inputs_[p].front().output, k).as<FrameRange>();
       const std::size_t there = frames.run->count(frames.output);
       if (range->end > there)
         throw NestedError(title(k) + ": has frames up to " + std::to_string(range->end) +

@@ -19,7 +19,7 @@ struct Source : WholeStep {
   };
   struct Out {
     Lazy<Frame> frames;
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     Poses poses;
   };
   static void describe(Declaration<Source>& is) {
@@ -41,7 +41,7 @@ struct Source : WholeStep {
       return frame;
     };
     for (std::uint32_t first = 0; first < static_cast<std::uint32_t>(params.frames); first += 3) {
-      Range range;
+      FrameRange range;
       range.first = first;
       range.end = std::min<std::uint32_t>(first + 3, params.frames);
       range.T_segment_frame.resize(range.size());
@@ -79,7 +79,7 @@ struct Keep : FrameStep {
 struct Merge : SegmentStep {
   struct In {
     Each<Frame> frames;
-    One<Range> range;
+    One<FrameRange> range;
   };
   struct Params {};
   struct Out {

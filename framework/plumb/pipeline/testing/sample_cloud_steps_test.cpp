@@ -50,7 +50,7 @@ struct ByCount : WholeStep {
     One<Trajectory> trajectory;
   };
   struct Out {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
     Poses poses;
   };
   struct Params {
@@ -68,7 +68,7 @@ struct ByCount : WholeStep {
 struct Merge : SegmentStep {
   struct In {
     Each<Frame> frames;
-    One<Range> ranges;
+    One<FrameRange> ranges;
   };
   struct Out {
     Segment segment;

@@ -8,7 +8,7 @@ namespace {
 struct Items : WholeStep {
   struct In {};
   struct Out {
-    std::vector<Range> ranges;
+    std::vector<FrameRange> ranges;
   };
   struct Params {
     int items = 2000;
@@ -21,7 +21,7 @@ struct Items : WholeStep {
   Out run(const In&, const Params& params, Context&) const {
     Out out;
     for (int k = 0; k < params.items; ++k) {
-      Range range;
+      FrameRange range;
       range.first = static_cast<std::uint32_t>(k);
       range.end = range.first + 1;
       range.T_segment_frame.resize(1);
@@ -33,7 +33,7 @@ struct Items : WholeStep {
 
 struct Nothing : SegmentStep {
   struct In {
-    One<Range> range;
+    One<FrameRange> range;
   };
   struct Out {
     Descriptor descriptor;

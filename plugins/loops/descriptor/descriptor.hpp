@@ -1,0 +1,51 @@
+#pragma once
+/// Which segments show a place that was seen before.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "plumb/data/graph.hpp"
+
+namespace plumb {
+
+/// World coordinates [m] of each segment, under poses that may have drifted.
+struct Places {
+  std::vector<Eigen::Vector3d> positions;  ///< of its frame; the path runs through these
+  std::vector<Eigen::Vector3d> centroids;  ///< of its cloud
+};
+
+/// In metres, ratios and similarities from 0 to 1. The step is the distance from one segment to
+/// the next.
+struct LoopOptions {
+  std::uint32_t candidates = 3;               ///< nearest centroids that are compared by similarity
+  std::optional<double> min_path_separation;  ///< between two passes; none: 4 x the median step
+  std::optional<double>
+      max_centroid_distance;  ///< of centroids, without drift; none: 2 x the median step
+  double drift = 0.03;        ///< of the path between two passes, added to 'max_centroid_distance'
+  std::optional<double> threshold;      ///< least similarity; none: relative, as follows
+  double relative_threshold = 0.7;      ///< of the median similarity of consecutive segments
+  std::uint32_t loops_per_segment = 2;  ///< edges are added until both ends have so many
+};
+
+struct Loops {
+  Edges edges;  ///< kind loop, scores are similarities
+  double threshold = 0, min_path_separation = 0, max_centroid_distance = 0;  ///< as they were used
+  std::size_t walks = 0;  ///< loops that were begun
+};
+
+/// `alike(i, j)` is the similarity of two segments, 0 to 1, symmetric.
+///
+/// For each segment, those of its `candidates` nearest centroids that are most similar are its
+/// partners. A partner lies at least min_path_separation along the path away, is not next in order,
+/// and is not farther than max_centroid_distance + drift x the path between. The most similar pair
+/// (i, j) of all is the first edge; from it edges are added to both sides, (i-1, j-1), (i+1, j+1),
+/// ... or (i-1, j+1), (i+1, j-1), ..., whichever way has the greater sum of similarities, until the
+/// threshold or what a partner may be is not met. Then the same from the most similar pair that is
+/// left and has an end with too few edges. So there are at most loops_per_segment x segments edges.
+/// Source: [Tang2024] 2.3.1; the second way and the later walks are ours.
+Loops find_loops(const Places& places,
+                 const std::function<double(std::uint32_t, std::uint32_t)>& alike,
+                 const LoopOptions& options);
+
+}  // namespace plumb
