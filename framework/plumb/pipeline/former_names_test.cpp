@@ -191,7 +191,7 @@ struct Elsewhere : WholeStep {
     One<Trajectory> trajectory;
   };
   struct Out {
-    std::vector<Range> cuts;
+    std::vector<FrameRange> cuts;
     Poses start;
   };
   struct Params {
