@@ -115,7 +115,7 @@ TEST(MatchRmse, IsCalledRmseWhereThereIsNoLabel) {
 TEST(MatchRmse, SaysHowManyEdgesHaveNoPairs) {
   const auto metrics = measured(false, {"a", "b"}, {{"max_correspondence_distance", 0.001}});
   EXPECT_THAT(metrics.notes, testing::ElementsAre(testing::HasSubstr("1 of 1 edges")));
-  EXPECT_EQ(metrics.edges[0].fate, "no matches");
+  EXPECT_EQ(metrics.edges[0].status, "no matches");
   EXPECT_TRUE(std::isnan(metrics.numbers[1].value));
 }
 

@@ -114,7 +114,7 @@ struct MatchRmse : WholeStep {
       without += none;
       out.metrics.edges.push_back({e.i, e.j, e.kind, results[k].asked, results[k].found,
                                    none ? 0 : rmse, none ? 0.0 : 1.0,
-                                   none ? "no matches" : "kept"});
+                                   none ? "no matches" : "accepted"});
     }
     if (without)
       out.metrics.notes.push_back(

@@ -316,12 +316,12 @@ TEST(PruneLoopConsistency, GivesTheKeptLoopsAndAReasonForEach) {
   EXPECT_EQ(number(metrics, "loops_against_loops"), 1);
   EXPECT_EQ(number(metrics, "loops_alone"), 0);
   ASSERT_EQ(metrics.edges.size(), loops.size());
-  EXPECT_EQ(metrics.edges[0].fate, "kept");
+  EXPECT_EQ(metrics.edges[0].status, "accepted");
   EXPECT_EQ(metrics.edges[0].kept, 500u);
-  EXPECT_EQ(metrics.edges[3].fate, "rejected: no drift explains it");
-  EXPECT_EQ(metrics.edges[11].fate, "rejected: other loops of the place contradict it");
+  EXPECT_EQ(metrics.edges[3].status, "rejected: no drift explains it");
+  EXPECT_EQ(metrics.edges[11].status, "rejected: other loops of the place contradict it");
   EXPECT_EQ(metrics.edges[11].kept, 0u);
-  EXPECT_EQ(metrics.edges[17].fate, "not registered");
+  EXPECT_EQ(metrics.edges[17].status, "not registered");
   // What is left between a kept loop and the poses is the drift.
   const Loop& last = loops.back();
   const double drift =
@@ -383,7 +383,7 @@ TEST(PruneLoopConsistency, MultipliesItsLengthsByTheScale) {
   const auto metrics = pruning(registered(loops, 96), small)
                            .with("scale", Metrics().add("scale", 0.1, ""))
                            .run<Metrics>("metrics", context);
-  EXPECT_EQ(metrics.edges[11].fate, "rejected: other loops of the place contradict it");
+  EXPECT_EQ(metrics.edges[11].status, "rejected: other loops of the place contradict it");
   EXPECT_EQ(number(metrics, "loops_kept"), static_cast<double>(loops.size() - 1));
 }
 

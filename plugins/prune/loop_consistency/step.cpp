@@ -12,7 +12,7 @@ namespace {
 const char* reason(LoopVerdict verdict) {
   switch (verdict) {
     case LoopVerdict::kept:
-      return "kept";
+      return "accepted";
     case LoopVerdict::against_odometry:
       return "rejected: no drift explains it";
     case LoopVerdict::against_loops:
@@ -119,10 +119,10 @@ struct PruneLoopConsistency : WholeStep {
          params.max_path_separation,
          params.max_unconfirmed_sigma});
     Out out;
-    std::vector<std::string> fates(edges.size(), "not registered");
+    std::vector<std::string> statuses(edges.size(), "not registered");
     std::size_t kept = 0, odometry = 0, contradicted = 0, alone = 0;
     for (std::size_t n = 0; n < loops.size(); ++n) {
-      fates[of[n]] = reason(verdicts[n]);
+      statuses[of[n]] = reason(verdicts[n]);
       kept += verdicts[n] == LoopVerdict::kept,
           odometry += verdicts[n] == LoopVerdict::against_odometry;
       contradicted += verdicts[n] == LoopVerdict::against_loops,
@@ -140,9 +140,10 @@ struct PruneLoopConsistency : WholeStep {
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Registration& r = registrations[k];
       const Pose left = r.T_i_j.inverse() * in.poses->relative(edges[k].i, edges[k].j);
-      out.metrics.edges.push_back(
-          {edges[k].i, edges[k].j, edges[k].kind, r.pairs, fates[k] == "kept" ? r.pairs : 0,
-           r.accepted ? left.translation.norm() : 0, fates[k] == "kept" ? 1.0 : 0.0, fates[k]});
+      out.metrics.edges.push_back({edges[k].i, edges[k].j, edges[k].kind, r.pairs,
+                                   statuses[k] == "accepted" ? r.pairs : 0,
+                                   r.accepted ? left.translation.norm() : 0,
+                                   statuses[k] == "accepted" ? 1.0 : 0.0, statuses[k]});
     }
     context.count("loops kept", kept);
     context.count("loops dropped: no drift explains them", odometry);

@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 enum class Kind { flaser, robot_laser, raw_laser, odometry, other };
-enum class Fate { whole, cut, not_a_number };
+enum class Status { whole, cut, not_a_number };
 
 /// A message: its words behind the first one.
 struct Message {
@@ -26,27 +26,27 @@ class Words {
 
   double number() {
     const double value = any_number();
-    if (std::isnan(value) && fate == Fate::whole) fate = Fate::not_a_number;
+    if (std::isnan(value) && status == Status::whole) status = Status::not_a_number;
     return value;
   }
   double finite() {
     const double value = number();
-    if (std::isinf(value) && fate == Fate::whole) fate = Fate::not_a_number;
+    if (std::isinf(value) && status == Status::whole) status = Status::not_a_number;
     return value;
   }
   /// NaN and infinity are numbers here.
   double any_number() {
     double value = std::nan("");
     const auto word = next();
-    if (fate == Fate::whole && !io::to_number(word, value)) fate = Fate::not_a_number;
+    if (status == Status::whole && !io::to_number(word, value)) status = Status::not_a_number;
     return value;
   }
   std::size_t count() {
     std::uint64_t n = 0;
     const auto word = next();
-    if (fate == Fate::whole && !io::to_number(word, n)) fate = Fate::not_a_number;
+    if (status == Status::whole && !io::to_number(word, n)) status = Status::not_a_number;
     // Each value takes two characters at least.
-    if (n > rest_.size() / 2 + 1) fate = Fate::cut, n = 0;
+    if (n > rest_.size() / 2 + 1) status = Status::cut, n = 0;
     return n;
   }
   PlanarPose pose() {
@@ -60,16 +60,16 @@ class Words {
   double stamp() {
     const double value = finite();
     skip(1);
-    if (fate == Fate::whole && io::next_word(rest_).empty()) fate = Fate::cut;
-    if (fate == Fate::whole && !io::next_word(rest_).empty()) fate = Fate::cut;
+    if (status == Status::whole && io::next_word(rest_).empty()) status = Status::cut;
+    if (status == Status::whole && !io::next_word(rest_).empty()) status = Status::cut;
     return value;
   }
-  Fate fate = Fate::whole;
+  Status status = Status::whole;
 
  private:
   std::string_view next() {
     const auto word = io::next_word(rest_);
-    if (word.empty() && fate == Fate::whole) fate = Fate::cut;
+    if (word.empty() && status == Status::whole) status = Status::cut;
     return word;
   }
   std::string_view rest_;
@@ -78,13 +78,13 @@ class Words {
 /// The scan, and whether it is whole.
 struct Parsed {
   LaserScan scan;
-  Fate fate = Fate::whole;
+  Status status = Status::whole;
 };
 
 void take_ranges(Words& words, LaserScan& scan) {
   const std::size_t n = words.count();
   scan.ranges.reserve(n);
-  for (std::size_t k = 0; k < n && words.fate == Fate::whole; ++k)
+  for (std::size_t k = 0; k < n && words.status == Status::whole; ++k)
     scan.ranges.push_back(static_cast<float>(words.any_number()));
 }
 
@@ -108,8 +108,8 @@ Parsed parse_scan(Kind kind, std::string_view message) {
   }
   if (kind == Kind::robot_laser) words.skip(5);
   scan.stamp = words.stamp();
-  if (words.fate == Fate::whole && scan.ranges.empty()) words.fate = Fate::cut;
-  parsed.fate = words.fate;
+  if (words.status == Status::whole && scan.ranges.empty()) words.status = Status::cut;
+  parsed.status = words.status;
   return parsed;
 }
 
@@ -172,7 +172,7 @@ void place_by_odometry(std::vector<LaserScan>& scans, const std::vector<std::siz
     Odometry o{message.line, 0, words.pose()};
     words.skip(3);
     o.stamp = words.stamp();
-    if (words.fate == Fate::whole) odometry.push_back(o);
+    if (words.status == Status::whole) odometry.push_back(o);
   }
   if (odometry.empty()) return;
   for (std::size_t k = 0; k < scans.size(); ++k) {
@@ -218,12 +218,12 @@ CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
   std::vector<std::size_t> line_of;
   log.scans.reserve(parsed.size());
   for (std::size_t k = 0; k < parsed.size(); ++k) {
-    if (parsed[k].fate == Fate::whole) {
+    if (parsed[k].status == Status::whole) {
       log.scans.push_back(std::move(parsed[k].scan));
       line_of.push_back(lines[k].line);
       continue;
     }
-    ++(parsed[k].fate == Fate::cut ? log.cut : log.not_numbers);
+    ++(parsed[k].status == Status::cut ? log.cut : log.not_numbers);
     if (log.first_damaged == 0) log.first_damaged = lines[k].line;
   }
   if (log.scans.empty())
