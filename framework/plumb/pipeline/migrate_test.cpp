@@ -130,7 +130,7 @@ TEST_F(Migrate, TellsWhatItCannotRewriteAndChangesNothing) {
                           "voxel: {type: length, default: 0.3 m, about: &word leaf}"},
                          {"poses: ranges.poses", "poses: &start ranges.start"},
                          {"poses: drift.solved}}", "poses: *start}}"}});
-  EXPECT_THAT(told(aliased), HasSubstr("a.yaml:17:66: 'ranges.poses' for 'ranges.start' cannot be "
+  EXPECT_THAT(told(aliased), HasSubstr("a.yaml:19:65: 'ranges.poses' for 'ranges.start' cannot be "
                                        "written here, behind an alias."));
   EXPECT_THAT(told(aliased), HasSubstr("Write out here what the alias stands for"));
   EXPECT_THAT(told(test::exchanged(cascade_of_now(),
@@ -148,7 +148,7 @@ TEST_F(Migrate, TellsWhatItCannotRewriteAndChangesNothing) {
 TEST_F(Migrate, SaysWhatItDid) {
   const Migrated result = migrate("a.yaml", old_cascade());
   const std::string file = (folder_.path() / "a.yaml").string();
-  EXPECT_EQ(result.done.front().done(), file + ":9:76: 'length' is 'frames' now");
+  EXPECT_EQ(result.done.front().done(), file + ":9:71: 'length' is 'frames' now");
   EXPECT_EQ(result.done[3].done(),
             file + ":13:3: 'angle: 0.26 rad', the former default, is written out");
 }
