@@ -207,8 +207,8 @@ TEST(CloudFile, RefusesWrongFilesWithThePathAndTheCure) {
               HasSubstr("SIZE 3"));
   EXPECT_THAT(said(fields + "POINTS 0\nDATA zip\n"), HasSubstr("'zip'"));
   EXPECT_THAT(said(""), HasSubstr("DATA"));
-  EXPECT_THAT(said("\x01\x02 garbage\n"), HasSubstr("no PCD file"));
-  EXPECT_THAT(said("", "a.ply"), HasSubstr("no PLY file"));
+  EXPECT_THAT(said("\x01\x02 garbage\n"), HasSubstr("not a PCD file"));
+  EXPECT_THAT(said("", "a.ply"), HasSubstr("not a PLY file"));
   EXPECT_THAT(said("ply\nformat binary_big_endian 1.0\n", "a.ply"),
               HasSubstr("binary_little_endian"));
   EXPECT_THAT(said("ply\nformat ascii 1.0\nelement vertex 1000000000000\nproperty float "

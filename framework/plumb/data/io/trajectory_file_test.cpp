@@ -140,8 +140,8 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
   const auto matrix = [&](const std::string& text) {
     return refusal([&] { read_mulran_csv(folder.write("a.csv", text)); });
   };
-  EXPECT_THAT(matrix("1,1,0,0,0,0,1,0,0,0,0,1.1,0\n"), HasSubstr("no rotation"));
-  EXPECT_THAT(matrix("1,1,0,0,0,0,1,0,0,0,0,-1,0\n"), HasSubstr("no rotation"));
+  EXPECT_THAT(matrix("1,1,0,0,0,0,1,0,0,0,0,1.1,0\n"), HasSubstr("not a rotation"));
+  EXPECT_THAT(matrix("1,1,0,0,0,0,1,0,0,0,0,-1,0\n"), HasSubstr("not a rotation"));
   EXPECT_THAT(matrix(""), HasSubstr("no pose"));
 }
 

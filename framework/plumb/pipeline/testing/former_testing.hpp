@@ -50,6 +50,7 @@ inline std::string cascade_of_now() {
                     {"with: {leaf: $voxel}", "with: {\"leaf\": $voxel, keep_normals: false}"},
                     {"describe.fpfh,", "describe.fpfh, with: {angle: 0.26 rad},"},
                     {"use: prune.kmeans,", "use: prune.kmeans, with: {clusters: 5},"},
+                    {"start: {poses: drift.solved}", "start: {poses: drift.solved.poses}"},
                     {"metric: rmse,", "metric: rmse.metrics,"}});
 }
 
@@ -65,7 +66,7 @@ inline std::string old_cascade() {
        {"use: prune.kmeans, with: {clusters: 5},", "use: prune.kmeans,"},
        {"with: {max: $gate}", "with: {reach: $gate}"},
        {"with: {loss: huber}", "with: {loss: robust}"},
-       {"start: {poses: drift.solved}", "start: {poses: drift.solved.trajectory}"},
+       {"start: {poses: drift.solved.poses}", "start: {poses: drift.solved.trajectory}"},
        {"from: {edges: edges, segments: segments, poses: solved}",
         "from: {graph: edges, segments: segments, poses: solved}"},
        {"metric: rmse.metrics,", "metric: rmse.numbers,"}});
