@@ -55,7 +55,7 @@ TEST(Track, FollowsTheTruthWhereOdometryDrifts) {
   const Tracked tracked = drive.follow(lines());
   EXPECT_GT(drive.error(drive.odometry, 59), 0.1);
   for (std::size_t k = 0; k < 60; ++k) EXPECT_LT(drive.error(tracked.poses, k), 0.02) << k;
-  EXPECT_EQ(tracked.laid, 59u);
+  EXPECT_EQ(tracked.registered, 59u);
   EXPECT_EQ(tracked.unfit, 0u);
   EXPECT_EQ(tracked.restarts, 0u);
   EXPECT_LT(tracked.iterations / 59, 5);
@@ -68,17 +68,17 @@ TEST(Track, NeedsNoOdometry) {
   for (std::size_t k = 0; k < 60; ++k) EXPECT_LT(drive.error(tracked.poses, k), 0.03) << k;
 }
 
-TEST(Track, IsBetterOntoAGroupThanOntoSingleScans) {
+TEST(Track, IsBetterAgainstASubmapThanAgainstSingleScans) {
   const Drive drive(120);
-  TrackOptions group = lines(), single = lines();
-  single.frames = 1, single.every = 0;
+  TrackOptions submap = lines(), single = lines();
+  single.frames = 1, single.min_translation = 0;
   const auto worst = [&](const TrackOptions& options) {
     const Tracked tracked = drive.follow(options);
     double most = 0;
     for (std::size_t k = 0; k < 120; ++k) most = std::max(most, drive.error(tracked.poses, k));
     return most;
   };
-  EXPECT_LT(worst(group), 0.7 * worst(single));
+  EXPECT_LT(worst(submap), 0.7 * worst(single));
 }
 
 TEST(Track, SearchesWhereTheRobotWasTurnedAround) {
