@@ -50,8 +50,9 @@ TEST(Revisits, GiveOneEdgeForEachVisit) {
   for (const auto& edge : edges.list) ++visits[edge.j];
   EXPECT_EQ(visits[139], 3);
   for (const auto& edge : edges.list) {
-    if (edge.i > 0 && edge.j % 40 > 5 && edge.j - edge.i > 10)
+    if (edge.i > 0 && edge.j % 40 > 5 && edge.j - edge.i > 10) {
       EXPECT_EQ((edge.j - edge.i) % 40, 0u) << edge.i << ' ' << edge.j;
+    }
   }
 }
 

@@ -57,8 +57,12 @@ TEST(Traverse, PassesExactlyTheCellsThatTheRayIsIn) {
     for (int r = 0; r < 26; ++r)
       for (int c = 0; c < 26; ++c) {
         const double length = length_in(ray, c, r);
-        if (length > 1e-4) EXPECT_TRUE(cells.contains({c, r})) << length;
-        if (length < -1e-4) EXPECT_FALSE(cells.contains({c, r})) << length;
+        if (length > 1e-4) {
+          EXPECT_TRUE(cells.contains({c, r})) << length;
+        }
+        if (length < -1e-4) {
+          EXPECT_FALSE(cells.contains({c, r})) << length;
+        }
       }
   }
 }

@@ -6,9 +6,17 @@
 #include "plumb/data/io/file_identity.hpp"
 
 namespace plumb {
+namespace {
+
+/// Raised when the engine gives steps something else for the same inputs. 2: seeds of the inputs
+/// alone.
+constexpr int engine_rule = 2;
+
+}  // namespace
 
 Hash128 step_key(const StepDescription& step, const ParameterValues& values) {
   Hasher hasher;
+  hasher.bytes(&engine_rule, sizeof engine_rule);
   hasher.text(step.name);
   hasher.bytes(&step.version, sizeof step.version);
   for (const auto& [name, value] : values) {  // a map: in order of name

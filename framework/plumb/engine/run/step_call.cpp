@@ -158,9 +158,10 @@ void StepRun::run_fold(std::vector<PortOutput>& outputs, Context& context) {
 
 /// From what the call sees, by content: a copied file or another folder gives the same numbers.
 /// Collections are not looked at.
-std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) const {
+/// Of the inputs' content alone, so that neither a name nor a version nor another build changes
+/// what a step draws.
+std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) {
   Hasher hasher;
-  hasher.bytes(&base_key_, sizeof base_key_);
   const auto add = [&](const AnyValue& value) {
     if (!value) return;
     const Hash128 content = value.type->hash(value.value.get());
@@ -227,7 +228,7 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
              first = passing && first_asked(0, k);
   // In a worker nothing is booked but what is warned: counts go home with the reply.
   ItemContext context(
-      state_.books, plan_.path, [&] { return fold ? base_key_.low : seed_of(inputs); },
+      state_.books, plan_.path, [&] { return fold ? 0 : seed_of(inputs); },
       !state_.passed && (!passing || first), said);
   const RunningCall now(*this, k);
   try {

@@ -114,7 +114,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
   std::pair<std::size_t, std::size_t> frames_of(std::size_t k, const Source& frames) const;
   std::size_t expected_bytes(std::size_t k);
-  std::uint64_t seed_of(const std::vector<PortInput>& inputs) const;
+  static std::uint64_t seed_of(const std::vector<PortInput>& inputs);
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
   void run_fold(std::vector<PortOutput>& outputs, Context& context);
   void require_sound(const AnyValue& value, std::size_t output) const;
