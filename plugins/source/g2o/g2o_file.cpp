@@ -88,7 +88,7 @@ class Reader {
                         line_,
                         {0, 0, planar_pose(std::span(v).first(3)),
                          from_plane(symmetric(std::span(v).last(6), 3))}});
-      if (!edges_.back().relation.information.allFinite()) refuse("the information is too large");
+      if (!edges_.back().constraint.information.allFinite()) refuse("the information is too large");
       is_planar(true);
     } else if (word == "FIX") {
       do fixed_.push_back({number(rest, word), line_});
