@@ -37,6 +37,7 @@ void add_resolve(CLI::App& app) {
       "resolve", "Prints the pipeline after presets and settings, each value with its origin");
   auto options = std::make_shared<PipelineOptions>();
   options->add_to(*command);
+  options->overlay.open = true;
   command->callback([options] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
@@ -51,6 +52,7 @@ void add_graph(CLI::App& app) {
   auto options = std::make_shared<PipelineOptions>();
   auto format = std::make_shared<std::string>("mermaid");
   options->add_to(*command);
+  options->overlay.open = true;
   command->add_option("--format", *format, "mermaid or dot")
       ->check(CLI::IsMember({"mermaid", "dot"}))
       ->capture_default_str();

@@ -20,7 +20,7 @@ struct PipelineOptions {
         ->allow_extra_args(false);
     command
         .add_option("--set", overlay.sets,
-                    "A parameter, a row or a step's parameter: input=DIR, coarse.gate=2m,1m, "
+                    "A parameter, a row or a step's parameter: input=DIR, voxel_size=0.2m, "
                     "coarse.kept.pairs_per_cluster=30; "
                     "may be given again")
         ->allow_extra_args(false);

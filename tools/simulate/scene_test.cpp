@@ -74,7 +74,7 @@ TEST(Scene, SaysWhereAMistakeIsAndWhatWasMeant) {
   EXPECT_THAT(refused("noise: 2 deg\n"), HasSubstr("ends in 'deg'"));
   EXPECT_THAT(refused("noise: two cm\n"), HasSubstr("is not a number"));
   EXPECT_THAT(refused("noise: 2 km\n"), HasSubstr("out of range"));
-  EXPECT_THAT(refused("lines: 6.5\n"), HasSubstr("no whole number"));
+  EXPECT_THAT(refused("lines: 6.5\n"), HasSubstr("not a whole number"));
   EXPECT_THAT(refused("lines: 0\n"), HasSubstr("out of range"));
   EXPECT_THAT(refused("frames: 1\n"), HasSubstr("out of range"));
   EXPECT_THAT(refused("seed: 1\nseed: 2\n"), HasSubstr("scene.yaml:2:1: 'seed' is given twice"));

@@ -58,11 +58,11 @@ TEST(OdometryNoise, GrowsWithThePathAndTheTurnFromWhatItIsAtRest) {
   const auto noise = odometry_noise(chain({rest, straight, turn}), nullptr, usual, 10, 6);
   ASSERT_EQ(noise.motions.size(), 3u);
   EXPECT_NEAR(noise.motions[0].sigma[0], 0.02, 1e-9);
-  EXPECT_NEAR(noise.motions[0].sigma[5], 0.001, 1e-9);
+  EXPECT_NEAR(noise.motions[0].sigma[5], 0.05 * deg, 1e-9);
   EXPECT_NEAR(noise.motions[1].sigma[2], std::hypot(0.02, 0.3), 1e-9);
-  EXPECT_NEAR(noise.motions[1].sigma[3], std::hypot(0.001, 0.017), 1e-9);
+  EXPECT_NEAR(noise.motions[1].sigma[3], std::hypot(0.05 * deg, 1 * deg), 1e-9);
   EXPECT_NEAR(noise.motions[2].sigma[0], 0.02, 1e-9);
-  EXPECT_NEAR(noise.motions[2].sigma[4], std::hypot(0.001, 0.03), 1e-9);
+  EXPECT_NEAR(noise.motions[2].sigma[4], std::hypot(0.05 * deg, 0.03), 1e-9);
   EXPECT_EQ(noise.factor, Vector6d::Ones());
   EXPECT_THAT(noise.outliers, IsEmpty());
 }
@@ -212,7 +212,7 @@ TEST(ConstrainOdometry, TakesTheParametersOfTheNoise) {
   auto step = wired();
   step.set("translation_per_metre", 0.1)
       .set("min_translation_sigma", 1e-6)
-      .set("rotation_per_metre", 1e-8)
+      .set("rotation_per_metre", 2e-8)
       .set("min_rotation_sigma", 0.2);
   const auto [x, yaw] = sigmas(step);
   EXPECT_NEAR(x, 0.3, 1e-9);
@@ -260,7 +260,7 @@ TEST(ConstrainOdometry, WithAScaleMultipliesLengthsAndDividesAnglesByLength) {
 TEST(ConstrainOdometry, WithAScaleLeavesRatiosAndAnglesAlone) {
   const auto step = [](double scale) {  // lengths and angles by length without weight
     auto s = wired();
-    s.set("rotation_per_metre", 1e-8)
+    s.set("rotation_per_metre", 2e-8)
         .set("min_translation_sigma", 1e-6)
         .set("translation_per_metre", 0.5)
         .set("min_rotation_sigma", 0.1);
