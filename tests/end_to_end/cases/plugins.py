@@ -157,7 +157,7 @@ def refused_module(folder, change, *words):
     kmeans.unlink()
     run("cc", "-shared", "-fPIC", folder / "trace.c", "-o", kmeans)
     kmeans.chmod(0o755)
-    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("no module of Plumb")
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("not a module of Plumb")
     assert trace.exists(), "a module that may be loaded was not: this test would not notice one that is"
     trace.unlink()
     change(kmeans, modules)

@@ -73,7 +73,7 @@ replace:
 
 
 def test_a_whole_stage_is_dropped(folder):
-    fine = re.search(r"^  fine:.*?(?=^  # What came out)", CASCADE.read_text(), re.M | re.S)[0]
+    fine = re.search(r"^  fine:.*?(?=^  # Evaluation of each stage)", CASCADE.read_text(), re.M | re.S)[0]
     said = run(folder, pipeline=overlay(folder, f"""remove: [coarse, after_drift, after_coarse]
 replace:
 {fine.replace('coarse.solved', 'drift.solved')}

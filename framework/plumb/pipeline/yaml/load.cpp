@@ -48,7 +48,7 @@ bool check_also_edits(const Node& edits, Diagnostics& diagnostics) {
   else
     diagnostics.add(edits.origin,
                     "'also' takes a map of edits for each pipeline, found " + edits.shown() + ".",
-                    "As in also: {../plumb.yaml: {set: {voxel_size: 0.3 m}}}.");
+                    "As in also: {../plumb.yaml: {set: {noise: 5 cm}}}.");
   return edits.is_map();
 }
 
@@ -128,7 +128,7 @@ void apply_sets(Node& pipeline, const std::vector<std::string>& options, Renamer
     const Origin origin{"--set " + option, 0, 0};
     const auto equals = option.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == option.size()) {
-      diagnostics.add(origin, "expected NAME=VALUE.", "As in --set voxel_size=0.2m.");
+      diagnostics.add(origin, "expected NAME=VALUE.", "As in --set input=DIR.");
       continue;
     }
     const std::string path = names.path(pipeline, option.substr(0, equals), origin);
