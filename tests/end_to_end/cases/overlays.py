@@ -34,7 +34,7 @@ def value_of(tree, rows, text):
         return text
     row = rows.get(text[1:])
     if row is None:
-        return tree["parameters"][text[1:]]["default"]
+        return tree["parameters"][text[1:]].get("default", "/somewhere")
     return row[0] if isinstance(row, list) else row
 
 

@@ -130,7 +130,7 @@ LAST_DISTANCE = "fine.max_correspondence_distance=1.5m,1m,0.7m,0.5m,0.4m"
 
 def test_explain_names_the_first_difference(folder):
     said, _, _ = run(folder, "first", "--explain", seen=sequence("street"))
-    said.has("segments: made, all", "this store knows no earlier run of it")
+    said.has("segments: made, all", "this cache knows no earlier run of it")
     said, _, _ = run(folder, "again", "--explain")
     said.has("segments: reused, all", "ranged: passes through\n", "fine.matches, pass 1: reused, all")
     said, _, made = run(folder, "gate", "--set", LAST_DISTANCE, "--explain")
