@@ -24,7 +24,7 @@ void add_check(CLI::App& app) {
     untrusted->before_reading(*options);
     const Registry steps = untrusted->steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
-    say_renamings(plan);
+    say_warnings(plan);
     untrusted->before_running(plan, steps, {});
     preflight(plan, steps);
     std::cout << passes_table(plan);
@@ -41,7 +41,7 @@ void add_resolve(CLI::App& app) {
   command->callback([options] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
-    say_renamings(plan);
+    say_warnings(plan);
     std::cout << plan.resolved;
   });
 }
@@ -59,7 +59,7 @@ void add_graph(CLI::App& app) {
   command->callback([options, format] {
     const Registry steps = installed_steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
-    say_renamings(plan);
+    say_warnings(plan);
     std::cout << (*format == "dot" ? dot_graph(plan) : mermaid_graph(plan));
   });
 }

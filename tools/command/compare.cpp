@@ -149,7 +149,7 @@ void compare(const Options& options) {
   options.store.require_one_meaning();
   const Registry steps = installed_steps();
   const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
-  say_renamings(pipeline);
+  say_warnings(pipeline);
   const auto variants = variants_of(options, pipeline);
   const auto input_names = names_of(options.inputs);
   require_good_names(options, pipeline, input_names);
@@ -180,7 +180,7 @@ void compare(const Options& options) {
       }
       runs[v].push_back(
           {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
-      say_renamings(runs[v].back().plan);
+      say_warnings(runs[v].back().plan);
     }
   }
   const ExitGuard while_loading;

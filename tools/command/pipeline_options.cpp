@@ -5,11 +5,13 @@
 
 namespace plumb::command {
 
-void say_renamings(const Plan& plan) {
+void say_warnings(const Plan& plan) {
   static std::set<std::string> said;  // compare reads the same files again and again
-  for (const Renaming& renaming : plan.renamings)
-    if (const std::string line = renaming.warning(); said.insert(line).second)
-      std::cerr << line << "\n";
+  std::vector<std::string> lines;
+  for (const Renaming& renaming : plan.renamings) lines.push_back(renaming.warning());
+  lines.insert(lines.end(), plan.warnings.begin(), plan.warnings.end());
+  for (const std::string& line : lines)
+    if (said.insert(line).second) std::cerr << line << "\n";
 }
 
 }  // namespace plumb::command

@@ -27,7 +27,8 @@ struct PipelineOptions {
   }
 };
 
-/// One line on standard error for each place that is written by names of an earlier release.
-void say_renamings(const Plan& plan);
+/// A line on standard error for each place that is written by names of an earlier release, and for
+/// what is perhaps not meant.
+void say_warnings(const Plan& plan);
 
 }  // namespace plumb::command

@@ -135,7 +135,7 @@ void run(Options& options) {
       options.locked.empty()
           ? Planned{read_pipeline(options.pipeline.file, options.pipeline.overlay, steps), {}}
           : locked(options, steps);
-  if (options.locked.empty()) say_renamings(plan);  // a record is never rewritten
+  if (options.locked.empty()) say_warnings(plan);  // a record is never rewritten
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   const ExitGuard while_loading;
   preflight(plan, steps);

@@ -110,6 +110,9 @@ struct Plan {
   std::string
       resolved;  ///< the pipeline after overlays as YAML, each value with a comment on its origin
   std::vector<Renaming> renamings;  ///< what is written as an earlier release had it
+  /// What is no mistake and perhaps not meant, a line each: "--set voxel=2m: warning: nothing uses
+  /// the parameter 'voxel' any more, ...".
+  std::vector<std::string> warnings;
 };
 
 }  // namespace plumb

@@ -15,15 +15,16 @@ bool leaves_something(const StepDescription& step) {
 
 bool from_command_line(const Origin& origin) { return origin.line == 0; }
 
-std::string left_without_use(const std::string& what) {
-  return "nothing uses the " + what + " any more, so that this sets nothing.";
+std::string left_without_use(const Origin& origin, const std::string& what) {
+  return origin.text() + ": warning: nothing uses the " + what +
+         " any more, so that this sets nothing; what it served has another value, from a preset or "
+         "from another --set.";
 }
-constexpr const char* cure =
-    "What it served has another value, from a preset or from another --set: leave one of them out.";
 
 }  // namespace
 
-/// What an overlay or --set left without a use is no mistake; to set it on the command line is one.
+/// What an overlay or --set left without a use is no mistake; to set it on the command line all the
+/// same is worth a warning.
 void find_unused(Draft& draft) {
   if (draft.dangling) return;  // it may be what was meant
   for (const auto& [name, setting] : draft.settings) {
@@ -32,7 +33,7 @@ void find_unused(Draft& draft) {
       draft.fault(setting.declared, "nothing uses the parameter '" + name + "'.",
                   "Write $" + name + " where its value belongs, or remove it.");
     else if (from_command_line(setting.origin))
-      draft.fault(setting.origin, left_without_use("parameter '" + name + "'"), cure);
+      draft.plan.warnings.push_back(left_without_use(setting.origin, "parameter '" + name + "'"));
   }
   for (std::size_t r = 0; r < draft.repeats.size(); ++r) {
     const PlannedRepeat& repeat = draft.plan.repeats[r];
@@ -44,8 +45,8 @@ void find_unused(Draft& draft) {
                     "repeat '" + repeat.path + "': no step uses the row '" + row.name + "'.",
                     "Write $" + row.name + " in a step of the body, or remove the row.");
       else if (from_command_line(row.origin))
-        draft.fault(row.origin, left_without_use("row '" + repeat.path + "." + row.name + "'"),
-                    cure);
+        draft.plan.warnings.push_back(
+            left_without_use(row.origin, "row '" + repeat.path + "." + row.name + "'"));
     }
     for (std::size_t k = 0; k < repeat.carries.size(); ++k)
       if (!draft.repeats[r].carries[k].used)

@@ -74,11 +74,14 @@ TEST_F(Overlays, LeaveParametersAndRowsOfTheBaseWithoutAUse) {
                 "plumb: 1\nextends: cascade.yaml\nset: {segments.leaf: 1 m, coarse.near.max: 2 "
                 "m}\n");
   EXPECT_EQ(value(read({}, {"p.yaml"}), "segments", "leaf"), ParameterValue(1.0));
-  EXPECT_THAT(told({"voxel=2m"}, {"p.yaml"}),
-              HasSubstr("--set voxel=2m: nothing uses the parameter 'voxel' any more, so that this "
-                        "sets nothing."));
-  EXPECT_THAT(told({"coarse.gate=2m"}, {"p.yaml"}),
-              HasSubstr("--set coarse.gate=2m: nothing uses the row 'coarse.gate' any more"));
+  EXPECT_THAT(read({"voxel=2m"}, {"p.yaml"}).warnings,
+              testing::ElementsAre(HasSubstr(
+                  "--set voxel=2m: warning: nothing uses the parameter 'voxel' any more, so that "
+                  "this sets nothing;")));
+  EXPECT_THAT(read({"coarse.gate=2m"}, {"p.yaml"}).warnings,
+              testing::ElementsAre(HasSubstr(
+                  "--set coarse.gate=2m: warning: nothing uses the row 'coarse.gate' any more")));
+  EXPECT_THAT(read({}, {"p.yaml"}).warnings, testing::IsEmpty());
   folder_.write("base.yaml",
                 std::string(cascade).replace(std::string(cascade).find("parameters:"), 11,
                                              "parameters:\n  spare: {type: "
