@@ -6,9 +6,11 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "plumb/data/error.hpp"
 #include "replaced_file.hpp"
 
 namespace plumb::command {
+namespace fs = std::filesystem;
 namespace {
 
 struct Options {
@@ -16,6 +18,12 @@ struct Options {
 };
 
 void migrate(const Options& options) {
+  std::error_code error;
+  if (!options.output.empty() && fs::is_regular_file(options.output, error) &&
+      !fs::equivalent(options.output, options.file, error))
+    throw Error(options.output.string() +
+                ": is there already; give -o a new name, or leave it out to replace the pipeline "
+                "itself");
   const Migrated result = migrated(options.file, installed_steps());
   const auto& to = options.output.empty() ? options.file : options.output;
   if (!result.done.empty() || !options.output.empty()) replace_file(to, result.text, options.file);

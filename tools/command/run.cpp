@@ -164,6 +164,10 @@ void run(Options& options) {
     run_options.store = store.get(), run_options.fresh = options.store.refresh;
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
+    if (const std::string changed = changed_input(record); !changed.empty())
+      throw Error(
+          changed + ", so that the results are of no one input and are not put in place; " +
+          "run it again (with --refresh where files got back their former sizes and times)");
     unsettled = folder.fill(std::move(record), result);
     listeners.say_of_files(options.log);
     if (options.explain)

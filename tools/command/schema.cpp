@@ -8,8 +8,20 @@
 
 #include "command.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/io/file_text.hpp"
 
 namespace plumb::command {
+
+namespace {
+
+/// Whether a schema that this command wrote lies there, and nothing of the user's.
+bool is_ours(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  return io::FileBytes(file).view().find("\"title\": \"Plumb pipeline\"") != std::string_view::npos;
+}
+
+}  // namespace
 
 void add_schema(CLI::App& app) {
   auto* command = app.add_subcommand(
@@ -26,6 +38,10 @@ void add_schema(CLI::App& app) {
     std::error_code error;
     std::filesystem::create_directories(*folder, error);
     const auto file = *folder / "pipeline.schema.json";
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
+      throw Error(file.string() +
+                  ": is there already and is not a schema of Plumb; move it away, or give another "
+                  "folder");
     std::ofstream out(file);
     out << text;
     out.close();

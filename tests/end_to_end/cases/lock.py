@@ -2,8 +2,10 @@
 import os
 import re
 import shutil
+import subprocess
+import time
 
-from plumb_test import (CAR, CASCADE, SOURCE, WRONG_COMMAND_LINE, WRONG_INPUT, copy_of, files_of, nothing_left, plumb, refused, sequence)
+from plumb_test import (CAR, CASCADE, PLUMB, SOURCE, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, copy_of, files_of, nothing_left, plumb, refused, sequence)
 
 POSES = """plumb: 1
 parameters:
@@ -174,3 +176,25 @@ def test_every_pipeline_that_is_shipped_reads_back_from_its_resolved_text(folder
         (folder / "resolved.yaml").write_text(first)
         second = plumb("resolve", folder / "resolved.yaml").out
         assert bare(first) == bare(second), file
+
+
+def change_while_it_runs(folder, change):
+    """Runs the cascade on a copy of a sequence, which `change` changes once the run has begun."""
+    seen = copy_of("street", folder)
+    events = folder / "events"
+    run = subprocess.Popen([PLUMB, "run", CASCADE, "--set", f"input={seen}", "--set", "ranges.frames=10", "--quiet", "--events", events, "-o", folder / "out"],
+                           stderr=subprocess.PIPE, text=True)
+    while run.poll() is None and not (events.exists() and "run_begins" in events.read_text()):
+        time.sleep(0.005)
+    change(seen)
+    said = run.communicate()[1]
+    assert run.returncode == STEP_FAILED and f"the input '{seen}' was changed while it was read" in said and "--refresh" in said, (run.returncode, said)
+    nothing_left(folder / "out")
+
+
+def test_a_frame_that_is_written_again_while_it_is_read_ends_the_run(folder):
+    change_while_it_runs(folder, lambda seen: os.utime(next((seen / "frames").iterdir()), (0, 0)))
+
+
+def test_a_frame_that_comes_while_others_are_read_ends_the_run(folder):
+    change_while_it_runs(folder, lambda seen: (seen / "notes.txt").write_text("of somebody"))

@@ -96,4 +96,7 @@ def test_what_is_no_pipeline_is_refused_and_left_as_it_is(folder):
     plumb("migrate", CASCADE, "-o", folder, code=WRONG_INPUT).has("is a folder")
     plumb("migrate", CASCADE, "-o", folder / "far/off.yaml", code=WRONG_INPUT).has("cannot be written")
     plumb("migrate", CASCADE, "-o", folder / "copy.yaml").has("nothing to do")
+    (folder / "mine.txt").write_text("my only copy")
+    plumb("migrate", CASCADE, "-o", folder / "mine.txt", code=WRONG_INPUT).has("mine.txt: is there already")
+    assert (folder / "mine.txt").read_text() == "my only copy"
     assert (folder / "copy.yaml").read_bytes() == CASCADE.read_bytes()

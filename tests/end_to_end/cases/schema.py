@@ -44,9 +44,13 @@ def test_checked_in_is_the_one_that_the_steps_declare(folder):
 def test_is_written_into_a_folder_or_refused(folder):
     plumb("schema", "-o", folder)
     assert (folder / "pipeline.schema.json").read_text() == plumb("schema").out
+    plumb("schema", "-o", folder)
     plumb("schema", "-o", folder / "new/deep")
     assert (folder / "new/deep/pipeline.schema.json").exists()
     plumb("schema", "-o", folder / "pipeline.schema.json", code=WRONG_INPUT).has("pipeline.schema.json", "cannot be written")
+    (folder / "pipeline.schema.json").write_text("{}")
+    plumb("schema", "-o", folder, code=WRONG_INPUT).has("is not a schema of Plumb")
+    assert (folder / "pipeline.schema.json").read_text() == "{}"
 
 
 def test_is_draft_07_and_has_every_step_in_its_enum(folder):

@@ -120,6 +120,14 @@ RunRecord record_now(const RunRecord& then, const Registry& registry, bool conte
   return now;
 }
 
+std::string changed_input(const RunRecord& record) {
+  for (const InputRecord& then : record.inputs)
+    if (const InputRecord now = input_record(then.path, then.content.has_value());
+        !difference_of(then, now).empty())
+      return "the input '" + then.path + "' was changed while it was read";
+  return "";
+}
+
 std::vector<std::string> differences(const RunRecord& then, const RunRecord& now) {
   std::vector<std::string> found;
   if (then.plumb != now.plumb)

@@ -61,6 +61,10 @@ std::optional<std::vector<FileRecord>> files_of_lock(const std::string& text);
 /// or `content` asks for it.
 RunRecord record_now(const RunRecord& then, const Registry& registry, bool content);
 
+/// What became of the inputs since `record` was taken, as a clause of a sentence; empty while they
+/// are as they were. An input's content is looked at when the record has it.
+std::string changed_input(const RunRecord& record);
+
 /// One sentence for each difference that may change results, with what was and what is.
 std::vector<std::string> differences(const RunRecord& then, const RunRecord& now);
 
