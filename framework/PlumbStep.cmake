@@ -21,12 +21,12 @@ function(plumb_add_step step)
 
   # The objects are compiled once; the module and the test both link them.
   add_library(${id}_objects OBJECT ${arg_SOURCES})
-  target_link_libraries(${id}_objects PUBLIC plumb ${arg_LIBRARIES})
+  target_link_libraries(${id}_objects PUBLIC plumb_slam ${arg_LIBRARIES})
   target_compile_options(${id}_objects PRIVATE ${PLUMB_WARNINGS})
   plumb_precompiled_step(${id}_objects)
 
   add_library(step_${id} MODULE $<TARGET_OBJECTS:${id}_objects>)
-  target_link_libraries(step_${id} PRIVATE plumb ${arg_LIBRARIES} -Wl,--no-undefined)
+  target_link_libraries(step_${id} PRIVATE plumb_slam ${arg_LIBRARIES} -Wl,--no-undefined)
   set_target_properties(step_${id} PROPERTIES PREFIX "" OUTPUT_NAME ${step}
                         LIBRARY_OUTPUT_DIRECTORY ${PLUMB_MODULE_DIR})
   if(NOT TARGET plumb_modules)
@@ -49,7 +49,7 @@ function(plumb_add_step step)
   if(PLUMB_TESTS AND arg_TESTS)
     add_executable(test_${id} ${arg_TESTS} $<TARGET_OBJECTS:${id}_objects>)
     plumb_precompiled_test(test_${id})
-    target_link_libraries(test_${id} PRIVATE plumb ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
+    target_link_libraries(test_${id} PRIVATE plumb_slam ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
                                              GTest::gtest_main)
     target_compile_definitions(test_${id} PRIVATE PLUMB_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     gtest_discover_tests(test_${id} TEST_PREFIX "${step}." DISCOVERY_MODE PRE_TEST)

@@ -6,6 +6,7 @@
 
 #include "plumb/report/stages.hpp"
 #include "plumb/report/weakness.hpp"
+#include "plumb/slam/report/made_metrics.hpp"
 
 namespace plumb::command {
 namespace {
@@ -24,7 +25,7 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
   const auto note = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
-  for (const MadeMetrics& made : result.metrics) {
+  for (const MadeMetrics& made : metrics_of(result)) {
     const auto step = std::find_if(plan.steps.begin(), plan.steps.end(),
                                    [&](const PlannedStep& s) { return s.path == made.path; });
     const auto stages = stages_of(*step);

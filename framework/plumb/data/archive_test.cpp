@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plumb/data/fault.hpp"
+#include "plumb/slam/fault.hpp"
 
 namespace plumb {
 namespace {

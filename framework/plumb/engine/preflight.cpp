@@ -5,7 +5,7 @@
 #include <map>
 
 #include "plumb/data/error.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"

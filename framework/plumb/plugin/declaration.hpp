@@ -66,14 +66,9 @@ struct ChoiceOf {
   const char* doc;
 };
 
-namespace detail {
-
-template <class T>
-struct is_optional : std::false_type {};
-template <class T>
-struct is_optional<std::optional<T>> : std::true_type {};
-
-/// Reads an input member from a PortInput; its specialisations are the list of what an In may hold.
+/// How a member of an In looks at its wire: the type and the access of the port, and how the member
+/// is filled. The specialisations are the list of what an In may hold; a module may add its own
+/// (PartOf).
 template <class Member>
 struct InputTraits;
 template <class T>
@@ -105,24 +100,49 @@ struct InputTraits<std::vector<Labelled<T>>> {
       to.push_back({label, One<T>(value.template as<T>())});
   }
 };
-template <>
-struct InputTraits<Relative> {
-  static constexpr Access access = Access::relative;
-  static const Type& type() { return type_of<Poses>(); }
-  static void set(Relative& to, const PortInput& from) { to = {from.T_i_j, from.wired}; }
+
+/// Base of the InputTraits of a member that sees, of one value T of the pipeline, what concerns its
+/// item alone. Beside `set` they have
+///   static constexpr const char* sees;                         for people
+///   static SeenPart part(const T&, const ItemPlace&);          empty: nothing
+/// and may have
+///   static std::size_t ends_count(const T&);                   Step::ends_count
+template <class T>
+struct PartOf {
+  using Whole = T;
+  static constexpr Access access = Access::part;
+  static const Type& type() { return type_of<T>(); }
 };
-template <>
-struct InputTraits<OverEdges> {
-  static constexpr Access access = Access::over_edges;
-  static const Type& type() { return type_of<Edges>(); }
-  static void set(OverEdges& to, const PortInput& from) { to = {from.wired}; }
+
+namespace detail {
+
+/// What the engine asks of an input that sees a part.
+struct PartCode {
+  SeenPart (*part)(const void* value, const ItemPlace& item) = nullptr;
+  std::optional<std::size_t> (*ends_count)(const void* value) = nullptr;
 };
-template <>
-struct InputTraits<ThisEdge> {
-  static constexpr Access access = Access::this_edge;
-  static const Type& type() { return type_of<Edges>(); }
-  static void set(ThisEdge& to, const PortInput& from) { to = {from.edge, from.wired}; }
-};
+template <class Traits>
+PartCode part_code() {
+  if constexpr (Traits::access == Access::part) {
+    using T = typename Traits::Whole;
+    return {[](const void* value, const ItemPlace& item) {
+              return Traits::part(*static_cast<const T*>(value), item);
+            },
+            [](const void* value) -> std::optional<std::size_t> {
+              if constexpr (requires(const T& whole) { Traits::ends_count(whole); })
+                return Traits::ends_count(*static_cast<const T*>(value));
+              (void)value;
+              return std::nullopt;
+            }};
+  } else {
+    return {};
+  }
+}
+
+template <class T>
+struct is_optional : std::false_type {};
+template <class T>
+struct is_optional<std::optional<T>> : std::true_type {};
 
 template <class T>
 struct OutputTraits {
@@ -160,7 +180,7 @@ class Declaration {
   using Params = typename S::Params;
 
   explicit Declaration(StepDescription& description) : of_(description) {
-    of_.kind = S::kind;
+    of_.items = S::items();
     of_.parameters.reserve(64);  // builders point into it
   }
 
@@ -185,25 +205,28 @@ class Declaration {
     return *this;
   }
   /// The many values of the output declared last belong to the items of an input declared before,
-  /// an Each of the same grain: one value each, in their order. Without this they are items of
+  /// an Each of the same kind: one value each, in their order. Without this they are items of
   /// their own.
   Declaration& over(const char* input) {
     if (of_.outputs.empty() || of_.outputs.back().emission == Emission::one)
       throw std::logic_error("over(): the last thing declared is no output of many values");
     const InputDescription* of = of_.input(input);
-    if (!of || of->access != Access::each || of->type->grain != of_.outputs.back().type->grain)
+    if (!of || of->access != Access::each || of->type->kind != of_.outputs.back().type->kind)
       throw std::logic_error("output '" + of_.outputs.back().name + "': no input '" + input +
-                             "' of items of its grain");
+                             "' of items of its kind");
     of_.outputs.back().over = input;
     return *this;
   }
 
-  /// An optional input of Metrics whose first number multiplies all of the step's lengths
-  /// (parameters in metres; those in 1/m are divided): how large the surroundings are beside those
-  /// that the numbers were chosen for. So one pipeline serves a car in a street and a scanner
-  /// carried through rooms.
-  Declaration& scale(One<Metrics> In::*member) {
-    scale_ = [member](const In& in) { return (in.*member).shared().get(); };
+  /// An optional input of a value with numbers (Metrics) whose first one multiplies all of the
+  /// step's lengths (parameters in metres; those in 1/m are divided): how large the surroundings
+  /// are beside those that the numbers were chosen for. So one pipeline serves a car in a street
+  /// and a scanner carried through rooms.
+  template <class M>
+  Declaration& scale(One<M> In::*member) {
+    scale_ = [member](const In& in) -> const std::vector<Number>* {
+      return in.*member ? &TypeTraits<M>::numbers(*(in.*member)) : nullptr;
+    };
     return add_input("scale", member,
                      "how large the surroundings are beside those that the parameters are for; "
                      "lengths are multiplied by it",
@@ -260,6 +283,7 @@ class Declaration {
     return ParameterBuilder(p);
   }
 
+  const detail::PartCode& part_code(std::size_t input) const { return parts_[input]; }
   In make_in(std::span<const PortInput> inputs) const {
     In in;
     for (std::size_t k = 0; k < takers_.size(); ++k)
@@ -271,13 +295,13 @@ class Declaration {
   }
   /// The factor of lengths that came in, or 1. Throws Error where it is no factor.
   double scale_of(const In& in) const {
-    const Metrics* scale = scale_ ? scale_(in) : nullptr;
-    if (!scale) return 1;
-    const auto& numbers = scale->numbers;
+    const std::vector<Number>* given = scale_ ? scale_(in) : nullptr;
+    if (!given) return 1;
+    const std::vector<Number>& numbers = *given;
     if (numbers.empty() || !(numbers.front().value > 0 &&
                              numbers.front().value < std::numeric_limits<double>::infinity()))
       throw Error(
-          "'scale' must have a positive number: wire Metrics whose first number is the factor");
+          "'scale' must have a positive number: wire a value whose first number is the factor");
     return numbers.front().value;
   }
   Params scaled(Params params, double factor) const {
@@ -300,8 +324,10 @@ class Declaration {
  private:
   template <class M>
   Declaration& add_input(const char* port, M In::*member, const char* doc, bool optional) {
-    using Traits = detail::InputTraits<M>;
-    of_.inputs.push_back({port, &Traits::type(), Traits::access, optional, doc});
+    using Traits = InputTraits<M>;
+    of_.inputs.push_back({port, &Traits::type(), Traits::access, optional, doc, ""});
+    if constexpr (Traits::access == Access::part) of_.inputs.back().sees = Traits::sees;
+    parts_.push_back(detail::part_code<Traits>());
     takers_.push_back([member](In& in, const PortInput& from) { Traits::set(in.*member, from); });
     return *this;
   }
@@ -356,11 +382,12 @@ class Declaration {
   StepDescription& of_;
   Params standard_;
   std::vector<std::function<void(In&, const PortInput&)>> takers_;
+  std::vector<detail::PartCode> parts_;  ///< by input
   std::vector<std::function<void(Out&, PortOutput&)>> getters_;
   std::vector<std::pair<std::string, std::function<void(Params&, const ParameterValue&)>>> setters_;
   std::vector<std::pair<std::size_t, std::function<void(Params&, double)>>>
-      scalers_;                                     ///< of the parameter with that place
-  std::function<const Metrics*(const In&)> scale_;  ///< null where it is not wired
+      scalers_;  ///< of the parameter with that place
+  std::function<const std::vector<Number>*(const In&)> scale_;  ///< null where it is not wired
 };
 
 /// The engine's face of a step S.
@@ -374,48 +401,18 @@ class StepOf final : public Step {
   }
   void run(const void* params, std::span<const PortInput> inputs, std::span<PortOutput> outputs,
            Context& context) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      throw std::logic_error("a fold is not run but folded");
-    } else {
-      const auto in = declaration_.make_in(inputs);
-      const double factor = declaration_.scale_of(in);
-      auto out = factor == 1 ? S{}.run(in, params_of(params), context)
-                             : S{}.run(in, declaration_.scaled(params_of(params), factor), context);
-      declaration_.give_out(out, outputs);
-    }
+    const auto in = declaration_.make_in(inputs);
+    const double factor = declaration_.scale_of(in);
+    auto out = factor == 1 ? S{}.run(in, params_of(params), context)
+                           : S{}.run(in, declaration_.scaled(params_of(params), factor), context);
+    declaration_.give_out(out, outputs);
   }
-  std::shared_ptr<void> begin(std::string_view saved) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      auto state = std::make_shared<typename S::State>();
-      if (!saved.empty()) *state = from_bytes<typename S::State>(saved);
-      return state;
-    } else {
-      throw std::logic_error("not a fold");
-    }
+  SeenPart part(std::size_t input, const void* value, const ItemPlace& item) const override {
+    return declaration_.part_code(input).part(value, item);
   }
-  std::string save(const void* state) const override {
-    if constexpr (S::kind == StepKind::fold)
-      return to_bytes(*static_cast<const typename S::State*>(state));
-    else
-      throw std::logic_error(state ? "not a fold" : "not a fold, no state");
-  }
-  void fold(void* state, const void* params, std::span<const PortInput> inputs,
-            Context& context) const override {
-    if constexpr (S::kind == StepKind::fold)
-      S{}.fold(*static_cast<typename S::State*>(state), declaration_.make_in(inputs),
-               params_of(params), context);
-    else
-      (void)state, (void)params, (void)inputs, (void)context;
-  }
-  void finish(void* state, const void* params, std::span<PortOutput> outputs,
-              Context& context) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      auto out = S{}.finish(std::move(*static_cast<typename S::State*>(state)), params_of(params),
-                            context);
-      declaration_.give_out(out, outputs);
-    } else {
-      (void)state, (void)params, (void)outputs, (void)context;
-    }
+  std::optional<std::size_t> ends_count(std::size_t input, const void* value) const override {
+    const auto code = declaration_.part_code(input).ends_count;
+    return code ? code(value) : std::nullopt;
   }
 
  private:

@@ -2,22 +2,21 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "plumb/data/error.hpp"
+#include "plumb/plugin/registry.hpp"
 
 namespace plumb {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr int manifest_version = 2;
+constexpr int manifest_version = 3;
 
-constexpr StepKind step_kinds[] = {StepKind::frame, StepKind::segment, StepKind::edge,
-                                   StepKind::fold, StepKind::whole};
-constexpr const char* accesses[] = {"item",     "ends",       "each",     "several",
-                                    "relative", "over_edges", "this_edge"};
+constexpr const char* accesses[] = {"item", "ends", "each", "several", "part"};
 constexpr const char* emissions[] = {"one", "many", "lazy"};
 constexpr ParameterKind parameter_kinds[] = {ParameterKind::number,  ParameterKind::integer,
                                              ParameterKind::boolean, ParameterKind::text,
@@ -117,7 +116,7 @@ ParameterDescription parameter_of(const json& j) {
 json to_json(const StepDescription& s) {
   json j = {{"name", s.name},
             {"version", s.version},
-            {"kind", name_of(s.kind)},
+            {"items", s.items ? json(s.items->name) : json(nullptr)},
             {"summary", s.summary},
             {"source", s.source}};
   j["inputs"] = j["outputs"] = j["parameters"] = json::array();
@@ -126,7 +125,8 @@ json to_json(const StepDescription& s) {
                            {"type", port.type->name},
                            {"access", accesses[static_cast<int>(port.access)]},
                            {"optional", port.optional},
-                           {"doc", port.doc}});
+                           {"doc", port.doc},
+                           {"sees", port.sees}});
   for (const auto& port : s.outputs)
     j["outputs"].push_back({{"name", port.name},
                             {"type", port.type->name},
@@ -137,22 +137,76 @@ json to_json(const StepDescription& s) {
   return j;
 }
 
+json kind_json(const ItemKind& kind) {
+  return {{"name", kind.name}, {"parts", kind.parts}, {"ranges", kind.ranges},
+          {"ends", kind.ends}, {"list", kind.list},   {"transient", kind.transient}};
+}
+
+json type_json(const Type& type) {
+  return {{"name", type.name},
+          {"version", type.version},
+          {"items", type.kind ? json(type.kind->name) : json(nullptr)},
+          {"large", type.large},
+          {"has_numbers", type.has_numbers},
+          {"has_empty", type.has_empty},
+          {"layout", type.layout}};
+}
+
+const ItemKind* kind_named(const json& j) {
+  if (j.is_null()) return nullptr;
+  const std::string name = j;
+  if (const ItemKind* kind = find_kind(name)) return kind;
+  throw Error("item kind '" + name + "' is named and not defined");
+}
+
 const Type* type_named(const json& j) {
   const std::string name = j;
   if (const Type* type = find_type(name)) return type;
-  throw Error("type '" + name + "' is unknown to this version of Plumb");
+  throw Error("type '" + name + "' is named and not defined");
+}
+
+/// Kinds before the types of their values, so that both can be registered in their order.
+void add_definitions(json& j, const std::vector<StepDescription>& steps) {
+  std::map<std::string, const Type*> types;
+  std::map<std::string, const ItemKind*> kinds;
+  for (const StepDescription& step : steps) {
+    for (const auto& port : step.inputs) types[port.type->name] = port.type;
+    for (const auto& port : step.outputs) types[port.type->name] = port.type;
+    if (step.items) kinds[step.items->name] = step.items;
+  }
+  for (const auto& [name, type] : types)
+    if (type->kind) kinds[type->kind->name] = type->kind;
+  j["kinds"] = j["types"] = json::array();
+  for (const auto& [name, kind] : kinds) j["kinds"].push_back(kind_json(*kind));
+  for (const auto& [name, type] : types) j["types"].push_back(type_json(*type));
+}
+
+/// Registers what a manifest defines, so that its steps can be wired before any code is loaded.
+void define_all(const json& j) {
+  for (const json& k : j.at("kinds"))
+    define_kind({k.at("name"), k.at("parts"), k.at("ranges"), k.at("ends"), k.at("list"),
+                 k.at("transient")});
+  for (const json& t : j.at("types"))
+    define_type({.name = t.at("name"),
+                 .version = whole_of<int>(t.at("version")),
+                 .kind = kind_named(t.at("items")),
+                 .large = t.at("large"),
+                 .has_numbers = t.at("has_numbers"),
+                 .has_empty = t.at("has_empty"),
+                 .layout = t.at("layout")});
 }
 
 StepDescription step_of(const json& j) {
   StepDescription s;
   s.name = j.at("name");
   s.version = whole_of<int>(j.at("version"));
-  s.kind = by_name(step_kinds, j.at("kind"));
+  s.items = kind_named(j.at("items"));
   s.summary = j.at("summary");
   s.source = j.at("source");
   for (const auto& p : j.at("inputs"))
     s.inputs.push_back({p.at("name"), type_named(p.at("type")),
-                        by_place<Access>(accesses, p.at("access")), p.at("optional"), p.at("doc")});
+                        by_place<Access>(accesses, p.at("access")), p.at("optional"), p.at("doc"),
+                        p.at("sees")});
   for (const auto& p : j.at("outputs"))
     s.outputs.push_back({p.at("name"), type_named(p.at("type")),
                          by_place<Emission>(emissions, p.at("emission")), p.at("doc"),
@@ -168,8 +222,9 @@ std::string step_json(const StepDescription& step) {
 }
 
 std::string manifest_text(const Manifest& manifest) {
-  json j = {
-      {"plumb_manifest", manifest_version}, {"abi", manifest.abi_tag}, {"steps", json::array()}};
+  json j = {{"plumb_manifest", manifest_version}, {"abi", manifest.abi_tag}};
+  add_definitions(j, manifest.steps);
+  j["steps"] = json::array();
   for (const auto& step : manifest.steps) j["steps"].push_back(to_json(step));
   return j.dump(1) + "\n";
 }
@@ -180,6 +235,8 @@ Manifest read_manifest(const std::string& text, const std::string& file) {
     if (j.at("plumb_manifest") != manifest_version)
       throw Error("made for another version of Plumb");
     Manifest manifest{j.at("abi"), {}};
+    if (manifest.abi_tag != abi_tag()) return manifest;  // what it defines may be something else
+    define_all(j);
     for (const auto& step : j.at("steps")) manifest.steps.push_back(step_of(step));
     return manifest;
   } catch (const std::exception& e) {

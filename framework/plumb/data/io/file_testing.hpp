@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "plumb/data/error.hpp"
 
 namespace plumb::io {

@@ -6,7 +6,7 @@ std::size_t memory_of(const StoredResult& result) {
   std::size_t bytes = sizeof(StoredResult) + 64;
   for (const auto& values : result.outputs)
     for (const AnyValue& value : values)
-      bytes += sizeof(AnyValue) + (value ? value.type->bytes(value.value.get()) : 0);
+      bytes += sizeof(AnyValue) + (value ? value.type->code->bytes(value.value.get()) : 0);
   return bytes;
 }
 

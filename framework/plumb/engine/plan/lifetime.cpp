@@ -75,16 +75,16 @@ std::vector<Keeping> keeping_of(const Plan& plan) {
       if (wire.step < 0) return;
       ++wires[wire.step];
       passable[wire.step] += step >= 0 && port->access == Access::item &&
-                             plan.steps[step].description->kind == StepKind::segment &&
-                             repeat_of[step] == repeat_of[wire.step];
+                             repeat_of[step] == repeat_of[wire.step] &&
+                             plan.steps[step].description->items ==
+                                 plan.steps[wire.step].description->items;
     });
   std::vector<Keeping> keeping;
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     const StepDescription& step = *plan.steps[s].description;
-    const bool frames = step.kind == StepKind::frame;
-    const bool cloud = step.kind == StepKind::segment && step.outputs.size() == 1 &&
-                       step.outputs.front().type == &type_of<Segment>();
-    if (frames || (cloud && wires[s] == 1 && passable[s] == 1))
+    const bool transient = step.items && step.items->transient;
+    const bool large = step.items && step.outputs.size() == 1 && step.outputs.front().type->large;
+    if (transient || (large && wires[s] == 1 && passable[s] == 1))
       keeping.push_back(Keeping::passing);
     else if (repeat_of[s] >= 0 || uses[step.name] > 1)
       keeping.push_back(Keeping::remembered);

@@ -10,7 +10,8 @@ namespace plumb {
 
 /// How long the items of a step live.
 enum class Keeping : std::uint8_t {
-  passing,  ///< made anew whenever asked for: frames, and clouds that only one following step takes
+  passing,  ///< made anew whenever asked for: what is transient (frames), and large values (clouds)
+            ///< that only one following step takes
   kept,     ///< made once, kept as long as someone may ask
   remembered,  ///< kept, and looked up in memory too when there is no store: the step may come
                ///< again with the same inputs

@@ -36,7 +36,7 @@ class Runner {
         keeping_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
-        metrics_(plan.steps.size()),
+        numbers_(plan.steps.size()),
         carried_(plan.repeats.size()) {
     for (const PlannedStep& step : plan.steps)
       steps_.push_back(&registry.step(step.description->name));
@@ -59,7 +59,7 @@ class Runner {
     for (std::size_t s = 0; s < plan_.steps.size(); ++s) {
       for (auto& document : documents_[s])
         result.documents.push_back({plan_.steps[s].path, document});
-      for (auto& metrics : metrics_[s]) result.metrics.push_back({plan_.steps[s].path, metrics});
+      for (auto& numbers : numbers_[s]) result.numbers.push_back({plan_.steps[s].path, numbers});
     }
     result.loops = std::move(loops_);
     result.warnings = books_.warnings();
@@ -153,21 +153,21 @@ class Runner {
   void collect(int index, StepRun& run) {
     if (run.itemwise()) return;
     documents_[index].clear();
-    metrics_[index].clear();
+    numbers_[index].clear();
     const auto& outputs = plan_.steps[index].description->outputs;
     for (std::size_t o = 0; o < outputs.size(); ++o) {
       const int output = static_cast<int>(o);
       if (outputs[o].type == &type_of<Document>())
         for (std::size_t k = 0; k < run.count(output); ++k)
           documents_[index].push_back(run.value(output, k).as<Document>());
-      if (outputs[o].type == &type_of<Metrics>() && outputs[o].emission == Emission::one)
-        metrics_[index].push_back(run.value(output).as<Metrics>());
+      if (outputs[o].type->has_numbers && outputs[o].emission == Emission::one)
+        numbers_[index].push_back(run.value(output));
     }
   }
 
   double condition_value(const PlannedCondition& condition) const {
-    const auto metrics = runs_[condition.step]->value(condition.output).as<Metrics>();
-    for (const Number& number : metrics->numbers)
+    const AnyValue value = runs_[condition.step]->value(condition.output);
+    for (const Number& number : value.type->code->numbers(value.value.get()))
       if (condition.metric.empty() || number.name == condition.metric) return number.value;
     throw Error(condition.origin.text() + ": step '" + plan_.steps[condition.step].path +
                 "' gave no number '" + condition.metric + "' to judge the loop by");
@@ -221,7 +221,7 @@ class Runner {
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
   std::vector<std::vector<std::shared_ptr<const Document>>> documents_;
-  std::vector<std::vector<std::shared_ptr<const Metrics>>> metrics_;
+  std::vector<std::vector<AnyValue>> numbers_;
   std::vector<std::vector<Source>> carried_;  ///< by repeat, then carry
   std::map<int, int> pass_of_;
   int pass_ = -1;  ///< of the innermost repeat that runs

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/data/document.hpp"
 #include "plumb/engine/cache/explain.hpp"
 #include "plumb/engine/observe/bookkeeping.hpp"
 #include "plumb/engine/run/executor.hpp"
@@ -36,14 +37,15 @@ struct MadeDocument {
   std::shared_ptr<const Document> document;
 };
 
-struct MadeMetrics {
+/// A value with numbers that a step on whole collections gave.
+struct MadeNumbers {
   std::string path;
-  std::shared_ptr<const Metrics> metrics;
+  AnyValue value;
 };
 
 struct RunResult {
   std::vector<MadeDocument> documents;
-  std::vector<MadeMetrics> metrics;  ///< every Metrics output; of a repeat its last pass
+  std::vector<MadeNumbers> numbers;  ///< every such value; of a repeat its last pass
   std::vector<LoopEnd> loops;
   std::vector<std::string> warnings;
   std::vector<StepCount> counts;

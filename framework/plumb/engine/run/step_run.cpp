@@ -20,11 +20,6 @@ StepRun::StepRun(const PlannedStep& plan, const Step& step, ParameterValues valu
       keeping_(keeping),
       state_(std::move(state)) {}
 
-bool StepRun::itemwise() const {
-  const StepKind kind = plan_.description->kind;
-  return kind != StepKind::whole && kind != StepKind::fold;
-}
-
 bool StepRun::lazy() const {
   for (const auto& output : plan_.description->outputs)
     if (output.emission == Emission::lazy) return true;
@@ -32,16 +27,11 @@ bool StepRun::lazy() const {
 }
 
 std::string StepRun::item_name(std::size_t k) const {
-  switch (plan_.description->kind) {
-    case StepKind::frame:
-      return "frame " + std::to_string(k);
-    case StepKind::segment:
-      return "segment " + std::to_string(k);
-    case StepKind::edge:
-      return "edge " + std::to_string(edges_->list[k].i) + "-" + std::to_string(edges_->list[k].j);
-    default:
-      return "";
-  }
+  if (!itemwise()) return "";
+  const ItemPlace place = place_of(k);
+  const std::string& kind = plan_.description->items->name;
+  return list_ ? kind + " " + std::to_string(place.i) + "-" + std::to_string(place.j)
+               : kind + " " + std::to_string(k);
 }
 
 std::string StepRun::title(std::size_t k) const {
@@ -58,7 +48,7 @@ void StepRun::start() {
 }
 
 void StepRun::join() {
-  if (itemwise()) find_items(), require_segments_of_edges();
+  if (itemwise()) find_items(), require_ends();
   if (keeping_ == Keeping::passing) asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
 }
 
@@ -218,7 +208,7 @@ AnyValue StepRun::value(int output, std::size_t k) {
   try {
     AnyValue value = lazy_[output].open(k, context);
     require_sound(value, static_cast<std::size_t>(output));
-    passed_bytes_ = std::max(passed_bytes_.load(), value.type->bytes(value.value.get()));
+    passed_bytes_ = std::max(passed_bytes_.load(), value.type->code->bytes(value.value.get()));
     if (first && state_.passed) state_.passed(*this, output, k, said);
     return value;
   } catch (const std::exception& e) {

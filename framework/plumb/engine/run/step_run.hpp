@@ -52,8 +52,8 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   /// Makes everything that is to be kept: the whole step, or all its items.
   void start();
   /// In a worker: takes over what another process made and put into the store, by its keys.
-  void adopt_items(std::vector<Hash128> keys, Source edges);
-  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source edges);
+  void adopt_items(std::vector<Hash128> keys, Source list);
+  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list);
   /// In a worker: joins the inputs of a step whose calls are asked for one by one.
   void join();
   /// In a worker: makes one call, puts its result into the store under the `expected` key unless
@@ -65,13 +65,13 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   const ParameterValues& values() const { return values_; }
   Keeping keeping() const { return keeping_; }
   const std::vector<std::vector<Source>>& inputs() const { return inputs_; }
-  bool itemwise() const;                        ///< one call a frame, segment or edge
+  bool itemwise() const { return plan_.description->itemwise(); }  ///< one call an item
   bool lazy() const;                            ///< has outputs that are made when asked for
   std::size_t items() const { return items_; }  ///< calls, for an item-wise step
   const std::vector<Hash128>& item_keys() const { return kept_keys_; }
   const Hash128& whole_key() const { return whole_key_; }
   const std::vector<std::vector<Hash128>>& whole_keys() const { return whole_keys_; }
-  const Source& edges_source() const { return edges_source_; }
+  const Source& list_source() const { return list_source_; }
   /// "step 'coarse.matches' (match.fpfh_mutual), edge 3-4".
   std::string title(std::size_t k) const;
   std::string item_name(
@@ -85,8 +85,12 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   AnyValue value(int output, std::size_t k = 0);
   /// Changes whenever that value would.
   Hash128 key(int output, std::size_t k = 0);
-  /// The edges that edge-wise values of this run belong to.
-  std::shared_ptr<const Edges> edges() const { return edges_; }
+  /// Of items that are listed (edges): the list that the values of this run belong to.
+  const AnyValue& list() const { return list_; }
+  /// Whether an output has one value an item, and not one for the whole pipeline.
+  bool per_item(int output) const {
+    return itemwise() || plan_.description->outputs[output].emission != Emission::one;
+  }
   /// What value k of an output takes in memory [bytes], about; 0 when nobody knows yet.
   std::size_t size_of(int output, std::size_t k);
   /// Books what was counted in another process of a value that passes through, once however often
@@ -112,16 +116,17 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
-  std::pair<std::size_t, std::size_t> frames_of(std::size_t k, const Source& frames) const;
+  std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts) const;
+  ItemPlace place_of(std::size_t k) const;
+  SeenPart part_of(std::size_t port, std::size_t k) const;
   std::size_t expected_bytes(std::size_t k);
   static std::uint64_t seed_of(const std::vector<PortInput>& inputs);
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
-  void run_fold(std::vector<PortOutput>& outputs, Context& context);
   void require_sound(const AnyValue& value, std::size_t output) const;
   void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
   // step_items.cpp: the items of an item-wise step
   void find_items();
-  void require_segments_of_edges() const;
+  void require_ends() const;
   [[noreturn]] void refuse_counts(const std::string& one, std::size_t have,
                                   const std::string& other, std::size_t wanted) const;
   void start_items();
@@ -164,8 +169,8 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   RunState state_;
 
   std::size_t items_ = 0;
-  Source edges_source_;  ///< where edges_ come from
-  std::shared_ptr<const Edges> edges_;
+  Source list_source_;  ///< where list_ comes from
+  AnyValue list_;
   std::vector<Hash128> kept_keys_;  ///< by item
   std::vector<SharedResult> pins_;  ///< by item: what the store did not take
   Hash128 whole_key_;

@@ -1,6 +1,7 @@
 /// A step on whole collections: reused, made here or elsewhere, and its values named.
 #include <algorithm>
 
+#include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -100,10 +101,9 @@ void StepRun::make_whole_elsewhere() {
   });
 }
 
-void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys,
-                          Source edges) {
-  if (edges.run) edges_ = edges.run->value(edges.output).as<Edges>();
-  edges_source_ = std::move(edges);
+void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list) {
+  if (list.run) list_ = list.run->value(list.output);
+  list_source_ = std::move(list);
   whole_key_ = key;
   whole_keys_ = std::move(keys);
 }
@@ -114,8 +114,7 @@ void StepRun::name_values() {
   const auto& outputs = plan_.description->outputs;
   whole_keys_.resize(outputs.size());
   for (std::size_t o = 0; o < outputs.size(); ++o) {
-    for (const AnyValue& value : result->outputs[o])
-      whole_keys_[o].push_back(outputs[o].type->hash(value.value.get()));
+    for (const AnyValue& value : result->outputs[o]) whole_keys_[o].push_back(value.hash());
     if (o < lazy_.size())
       for (const Hash128& key : lazy_[o].keys) whole_keys_[o].push_back(joined_key(base_key_, key));
     check_items(o);
@@ -133,8 +132,7 @@ void StepRun::check_items(std::size_t output) {
     throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" +
                 port.name + "' has " + std::to_string(made) + " values where its input '" +
                 port.over + "' has " + std::to_string(items) + "; the step must give one for each");
-  if (port.type->grain == Grain::edge)
-    edges_source_ = source->run->edges_source(), edges_ = source->run->edges();
+  if (source->run->list()) list_source_ = source->run->list_source(), list_ = source->run->list();
 }
 
 /// The input to whose items the values of an output belong; null when they are items of their own.

@@ -55,7 +55,7 @@ std::string name_of_step(const PlannedStep& step) {
 }
 
 /// The type on a wire: of the output, or of what is carried.
-const char* type_on(const Plan& plan, const Wire& wire) {
+const std::string& type_on(const Plan& plan, const Wire& wire) {
   const Wire* at = &wire;
   while (at->step < 0) at = &plan.repeats[at->repeat].carries[at->carry].next;
   return plan.steps[at->step].description->outputs[at->output].type->name;

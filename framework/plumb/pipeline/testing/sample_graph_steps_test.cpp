@@ -1,6 +1,6 @@
 /// Of the steps that test_steps.hpp offers those on edges and graphs, and what writes: they declare
 /// ports and parameters like the real ones and do nothing.
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
 #include "plumb/pipeline/testing/test_steps.hpp"
 #include "plumb/plugin/declaration.hpp"
 
