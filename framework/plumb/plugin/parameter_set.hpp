@@ -17,7 +17,6 @@
 ///
 /// and a step whose Params has a member `IcpOptions icp` takes them by is.params(&Params::icp).
 
-#include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -47,11 +46,10 @@ class ParameterSet {
   }
 
   /// A parameter of type double, int, std::uint32_t, std::int64_t, bool, std::string,
-  /// std::filesystem::path, or std::optional of one of these (then 'none' may be written). The
-  /// default is what the member has in a fresh Options.
+  /// std::filesystem::path, or std::optional of one of these (then 'none' may be written); the
+  /// member may be inherited. The default is what it has in a fresh Options.
   template <class M, class Base>
-  requires std::derived_from<Options, Base> ParameterBuilder param(const char* parameter,
-                                                                   M Base::*member) {
+  ParameterBuilder param(const char* parameter, M Base::*member) {
     M Options::*const own = member;
     const M& standard = standard_.*own;
     Accessor access;
@@ -85,8 +83,8 @@ class ParameterSet {
 
   /// A parameter that is one of an enum's values, each with its name in YAML and what it means.
   template <class E, class Base>
-  requires std::derived_from<Options, Base> ParameterBuilder
-  choice(const char* parameter, E Base::*member, std::vector<ChoiceOf<E>> choices) {
+  ParameterBuilder choice(const char* parameter, E Base::*member,
+                          std::vector<ChoiceOf<E>> choices) {
     E Options::*const own = member;
     auto description = detail::description_of<std::string>(parameter);
     description.kind = ParameterKind::choice;
@@ -105,7 +103,6 @@ class ParameterSet {
   /// The parameters of a member that declares itself: all of them as it has them, or only those
   /// named, in that order. Their defaults are what the member has in a fresh Options.
   template <class Held, class Base>
-  requires std::derived_from<Options, Base>
   void params(Held Base::*member, std::initializer_list<std::string_view> only = {}) {
     Held Options::*const own = member;
     std::vector<ParameterDescription> described;
