@@ -145,14 +145,7 @@ void require_good_names(const Options& options, const Plan& pipeline,
                   ", of which compare makes a folder in -o, " + fault);
 }
 
-void compare(const Options& options) {
-  options.store.require_one_meaning();
-  const Registry steps = installed_steps();
-  const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
-  say_warnings(pipeline);
-  const auto variants = variants_of(options, pipeline);
-  const auto input_names = names_of(options.inputs);
-  require_good_names(options, pipeline, input_names);
+void require_different_inputs(const Options& options) {
   for (std::size_t k = 0; k < options.inputs.size(); ++k)
     for (std::size_t n = 0; n < k; ++n)
       if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
@@ -161,27 +154,61 @@ void compare(const Options& options) {
                     "leave one out");
   if (is_set(options, "input"))
     throw Error("--set input=...: --input sets it; leave one of them out");
+}
+
+/// The runs of a variant on all inputs, in their order.
+std::vector<Run> runs_of(const Variant& variant, const Options& options, const Registry& steps) {
+  std::vector<Run> runs;
+  for (const fs::path& input : options.inputs) {
+    const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
+    auto sets = sets_of(input, open, variant.name);
+    if (!variant.alone) {
+      std::erase_if(sets, [&](const std::string& set) {
+        return is_set(options, set.substr(0, set.find('=')));
+      });
+      sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+    }
+    runs.push_back(
+        {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
+    say_warnings(runs.back().plan);
+  }
+  return runs;
+}
+
+/// Makes one run and fills its folder; `settled` becomes false when that is not as it should be.
+RunResult result_of(Run& run, const Options& options, const Registry& steps, Store* store,
+                    bool& settled) {
+  Console console(true, "");
+  RunOptions run_options;
+  run_options.threads = options.threads;
+  run_options.store = store;
+  const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
+  RunResult result = run_plan(run.plan, steps, run_options, console);
+  if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
+      !unsettled.empty()) {
+    std::cerr << "plumb: " << unsettled << "\n";
+    settled = false;
+  }
+  return result;
+}
+
+void compare(const Options& options) {
+  options.store.require_one_meaning();
+  const Registry steps = installed_steps();
+  const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
+  say_warnings(pipeline);
+  const auto variants = variants_of(options, pipeline);
+  const auto input_names = names_of(options.inputs);
+  require_good_names(options, pipeline, input_names);
+  require_different_inputs(options);
   require_timed(options.figures.timed, pipeline);
 
   // All that can be refused is refused before the first run.
-  std::vector<std::vector<Run>> runs(variants.size());
+  std::vector<std::vector<Run>> runs;
   std::vector<std::string> variant_names;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    variant_names.push_back(variants[v].name);
-    for (std::size_t k = 0; k < options.inputs.size(); ++k) {
-      const Variant& variant = variants[v];
-      const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
-      auto sets = sets_of(options.inputs[k], open, variant.name);
-      if (!variant.alone) {
-        std::erase_if(sets, [&](const std::string& set) {
-          return is_set(options, set.substr(0, set.find('=')));
-        });
-        sets.insert(sets.end(), options.sets.begin(), options.sets.end());
-      }
-      runs[v].push_back(
-          {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
-      say_warnings(runs[v].back().plan);
-    }
+  for (const Variant& variant : variants) {
+    runs.push_back(runs_of(variant, options, steps));
+    variant_names.push_back(variant.name);
   }
   const ExitGuard while_loading;
   for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
@@ -200,17 +227,7 @@ void compare(const Options& options) {
     for (std::size_t v = 0; v < variants.size(); ++v) {
       Run& run = runs[v][k];
       try {
-        Console console(true, "");
-        RunOptions run_options;
-        run_options.threads = options.threads;
-        run_options.store = store.get();
-        const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
-        const RunResult result = run_plan(run.plan, steps, run_options, console);
-        if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
-            !unsettled.empty()) {
-          std::cerr << "plumb: " << unsettled << "\n";
-          settled = false;
-        }
+        const RunResult result = result_of(run, options, steps, store.get(), settled);
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::cerr << variants[v].name << " on " << input_names[k] << ": "

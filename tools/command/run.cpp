@@ -124,6 +124,23 @@ void require_store(const Options& options, const Store* store) {
                 ", but there is none; give --cache-dir DIR");
 }
 
+std::vector<SideFile> side_files_of(const Options& options) {
+  return {{"--log", options.log, "log", log_mark},
+          {"--events", options.events, "events", EventLines::mark},
+          {"--trace", options.trace, "trace", TraceFile::mark}};
+}
+
+/// What is said of a run whose results are in place.
+void report(const Options& options, const Plan& plan, const RunResult& result, const Store* store) {
+  if (options.explain)
+    for (const Explained& step : result.explained) std::cout << step.text() << "\n";
+  if (store) say_of_store(*store, result, options.quiet);
+  if (options.quiet)
+    print_weak(std::cerr, result, false);
+  else
+    print_summary(std::cout, plan, result, options.output, options.times);
+}
+
 void run(Options& options) {
   options.store.require_one_meaning();
   options.executor.require_one_meaning();
@@ -139,10 +156,7 @@ void run(Options& options) {
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   const ExitGuard while_loading;
   preflight(plan, steps);
-  const std::vector<SideFile> side_files = {
-      {"--log", options.log, "log", log_mark},
-      {"--events", options.events, "events", EventLines::mark},
-      {"--trace", options.trace, "trace", TraceFile::mark}};
+  const std::vector<SideFile> side_files = side_files_of(options);
   require_elsewhere(side_files, options.output);
   require_apart(options.store.folder(), options.output);
   remove_staging_when_interrupted();
@@ -170,13 +184,7 @@ void run(Options& options) {
           "run it again (with --refresh where files got back their former sizes and times)");
     unsettled = folder.fill(std::move(record), result);
     listeners.say_of_files(options.log);
-    if (options.explain)
-      for (const Explained& step : result.explained) std::cout << step.text() << "\n";
-    if (store) say_of_store(*store, result, options.quiet);
-    if (options.quiet)
-      print_weak(std::cerr, result, false);
-    else
-      print_summary(std::cout, plan, result, options.output, options.times);
+    report(options, plan, result, store.get());
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
     throw CLI::RuntimeError(exit_failed);
@@ -184,6 +192,40 @@ void run(Options& options) {
   if (unsettled.empty()) return;
   std::cerr << "plumb: " << unsettled << "\n";
   throw CLI::RuntimeError(exit_unsettled);
+}
+
+/// What the run tells, on the screen and in files beside the results.
+void add_reports(CLI::App& command, Options& options) {
+  command.add_flag("--quiet", options.quiet, "Only warnings and errors");
+  command.add_flag("--times,!--no-times", options.times,
+                   "Show the time and memory that each step took (unless --no-times or --quiet)");
+  command.add_option("--log", options.log,
+                     "Also write progress and notes, with the time of day, to this file");
+  command.add_option(
+      "--events", options.events,
+      "Also write all that happens to this file, as it happens: a JSON object a line");
+  command.add_option(
+      "--trace", options.trace,
+      "Also write which item was made when and by which thread, for ui.perfetto.dev");
+}
+
+/// --locked, which stands for a pipeline and all that goes with one.
+void add_locked(CLI::App& command, Options& options) {
+  command.add_flag("--verify-inputs", options.verify_inputs,
+                   "Read the inputs' files to know them by content, not by size and time alone");
+  auto* pipeline = command.get_option("PIPELINE")->required(false);
+  command
+      .add_option("--locked", options.locked,
+                  "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
+                  "takes no PIPELINE")
+      ->excludes(pipeline)
+      ->excludes("--preset")
+      ->excludes("--set");
+  command.get_option("--untrusted")
+      ->excludes("--locked")
+      ->excludes("--isolate")
+      ->excludes("--executor")
+      ->excludes("--executor-profile");
 }
 
 }  // namespace
@@ -214,32 +256,8 @@ void add_run(CLI::App& app) {
       "Bound of resident memory, such as 2GiB: what does not fit waits in the cache");
   options->executor.add_to(*command);
   options->untrusted.add_to(*command);
-  command->add_flag("--quiet", options->quiet, "Only warnings and errors");
-  command->add_flag("--times,!--no-times", options->times,
-                    "Show the time and memory that each step took (unless --no-times or --quiet)");
-  command->add_option("--log", options->log,
-                      "Also write progress and notes, with the time of day, to this file");
-  command->add_option(
-      "--events", options->events,
-      "Also write all that happens to this file, as it happens: a JSON object a line");
-  command->add_option(
-      "--trace", options->trace,
-      "Also write which item was made when and by which thread, for ui.perfetto.dev");
-  command->add_flag("--verify-inputs", options->verify_inputs,
-                    "Read the inputs' files to know them by content, not by size and time alone");
-  auto* pipeline = command->get_option("PIPELINE")->required(false);
-  command
-      ->add_option("--locked", options->locked,
-                   "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
-                   "takes no PIPELINE")
-      ->excludes(pipeline)
-      ->excludes("--preset")
-      ->excludes("--set");
-  command->get_option("--untrusted")
-      ->excludes("--locked")
-      ->excludes("--isolate")
-      ->excludes("--executor")
-      ->excludes("--executor-profile");
+  add_reports(*command, *options);
+  add_locked(*command, *options);
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set "
       "input=DIR -o OUT\n"

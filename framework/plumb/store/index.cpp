@@ -3,7 +3,6 @@
 #include "plumb/store/index.hpp"
 
 #include <chrono>
-#include <set>
 
 #include "plumb/data/archive.hpp"
 #include "plumb/store/blob_file.hpp"
@@ -23,9 +22,6 @@ std::int64_t now_ms() {
   throw DatabaseError(DatabaseError::Cause::damage,
                       std::string("a row of its table '") + table + "' is not as it was written");
 }
-
-constexpr const char* put_result =
-    "INSERT OR REPLACE INTO results VALUES(?1, ?2, ?3, ?4, ?5, row_sum(?1, ?2, ?3, ?4, ?5))";
 
 }  // namespace
 
@@ -182,35 +178,12 @@ void Index::write(Database& database, const Notes& notes) {
     put_hash.with(path, seen.size, seen.mtime_ns, seen.hash).run();
 }
 
-/// Gives rows to files that have none and takes those away that have no file.
-void Index::follow_files(Database& database) {
-  std::set<Hash128> without;  // first all rows, in the end those without a file
-  Statement all(database, "SELECT key FROM results");
-  while (all.next()) without.insert(all.hash(0));
-  Transaction transaction(database);
-  Statement put(database, put_result), take(database, "DELETE FROM results WHERE key = ?1");
-  for_each_blob(store_, [&](const Hash128& key, const std::filesystem::path& blob) {
-    if (without.erase(key) > 0) return;
-    std::error_code error;
-    const auto bytes = size_of_file(blob);
-    const auto written = std::filesystem::last_write_time(blob, error);
-    const auto head = head_in(blob, key);
-    if (error || !bytes || !head) return;  // gone, or no blob: whoever looks for it will tell
-    const auto made = std::chrono::duration_cast<std::chrono::milliseconds>(
-                          std::chrono::file_clock::to_sys(written).time_since_epoch())
-                          .count();
-    put.with(key, head->step, *bytes, made, made).run();
-  });
-  for (const Hash128& key : without) take.with(key).run();
-  transaction.commit();
-}
-
 void Index::check() {
   flush();
   with_database([&](Database& database) {
     if (const std::string why = damage_in(database); !why.empty())
       throw DatabaseError(DatabaseError::Cause::damage, why);
-    follow_files(database);
+    follow_files(database, store_);
   });
 }
 

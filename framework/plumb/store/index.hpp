@@ -107,7 +107,6 @@ class Index {
   template <class Action>
   void with_database(Action action);
   void write(Database& database, const Notes& notes);
-  void follow_files(Database& database);
 
   // index_life.cpp
   void open();

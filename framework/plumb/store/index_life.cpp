@@ -116,7 +116,7 @@ void Index::mend() {
       Database database(file());
       if (has_tables(database)) {
         why = damage_in(database);
-        if (why.empty()) return follow_files(database);
+        if (why.empty()) return follow_files(database, store_);
       }
     } catch (const DatabaseError& e) {
       if (e.cause() != DatabaseError::Cause::damage) throw;
@@ -135,7 +135,7 @@ void Index::rebuild(const std::string& why) {
   }
   Database database(file());
   make_tables(database);
-  follow_files(database);
+  follow_files(database, store_);
 }
 
 /// Found to be damaged while it is used. Whoever else uses it has the file open: then it is left to

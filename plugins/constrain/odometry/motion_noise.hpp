@@ -17,6 +17,31 @@ struct MotionNoise {
   double rotation_per_turn = 0.02;         ///< [rad/rad]
   double min_translation_sigma = 0.02;     ///< [m]
   double min_rotation_sigma = 0.05 * deg;  ///< [rad]
+
+  /// As parameters of a step.
+  template <class Declare>
+  static void describe(Declare& is) {
+    is.param("translation_per_metre", &MotionNoise::translation_per_metre)
+        .unit("%")
+        .range(1e-6, 10)
+        .doc("standard deviation of the translation, as a share of its length");
+    is.param("rotation_per_metre", &MotionNoise::rotation_per_metre)
+        .unit("rad/m")
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation for each metre of translation");
+    is.param("rotation_per_turn", &MotionNoise::rotation_per_turn)
+        .unit("%")
+        .range(0, 10)
+        .doc("standard deviation of the rotation, as a share of the rotation");
+    is.param("min_translation_sigma", &MotionNoise::min_translation_sigma)
+        .unit("m")
+        .range(1e-6, 1e3)
+        .doc("standard deviation of the translation at rest");
+    is.param("min_rotation_sigma", &MotionNoise::min_rotation_sigma)
+        .unit("rad")
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation at rest");
+  }
 };
 
 /// The motion from segment k to k + 1 with the standard deviations of x, y, z [m] and of the

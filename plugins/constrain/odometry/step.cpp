@@ -17,7 +17,8 @@ struct ConstrainOdometry : WholeStep {
     Constraints constraints;
     Metrics metrics;
   };
-  struct Params : MotionNoise {
+  struct Params {
+    MotionNoise noise;
     double max_factor = 10;
     double max_deviation = 6;
   };
@@ -40,26 +41,7 @@ struct ConstrainOdometry : WholeStep {
     is.output("metrics", &Out::metrics,
               "median standard deviations that were used, and how many motions contradict the "
               "registrations");
-    is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre))
-        .unit("%")
-        .range(1e-6, 10)
-        .doc("standard deviation of the translation, as a share of its length");
-    is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre))
-        .unit("rad/m")
-        .range(1e-6 * deg, 360 * deg)
-        .doc("standard deviation of the rotation for each metre of translation");
-    is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn))
-        .unit("%")
-        .range(0, 10)
-        .doc("standard deviation of the rotation, as a share of the rotation");
-    is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma))
-        .unit("m")
-        .range(1e-6, 1e3)
-        .doc("standard deviation of the translation at rest");
-    is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma))
-        .unit("rad")
-        .range(1e-6 * deg, 360 * deg)
-        .doc("standard deviation of the rotation at rest");
+    is.params(&Params::noise);
     is.param("max_factor", &Params::max_factor)
         .range(1, 1e6)
         .doc(
@@ -78,8 +60,8 @@ struct ConstrainOdometry : WholeStep {
       throw Error("there are " + std::to_string(odometry.size()) + " segments and " +
                   std::to_string(in.registered->size()) +
                   " registered poses: wire ranges and poses of the same segments");
-    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params,
-                                      params.max_factor, params.max_deviation);
+    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr,
+                                      params.noise, params.max_factor, params.max_deviation);
     Out out;
     out.constraints = constraints_from(noise.motions);
     const char* axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -110,11 +92,6 @@ struct ConstrainOdometry : WholeStep {
           in.trajectory->T_world_frame[range->first + range->size() / 2]);
     }
     return poses;
-  }
-  /// Params inherits its members, which are named by the base.
-  template <class M>
-  static M Params::*as_own(M MotionNoise::*member) {
-    return member;
   }
 };
 

@@ -18,14 +18,50 @@ struct Places {
 /// In metres, ratios and similarities from 0 to 1. The step is the distance from one segment to
 /// the next.
 struct LoopOptions {
-  std::uint32_t candidates = 3;               ///< nearest centroids that are compared by similarity
-  std::optional<double> min_path_separation;  ///< between two passes; none: 4 x the median step
-  std::optional<double>
-      max_centroid_distance;  ///< of centroids, without drift; none: 2 x the median step
-  double drift = 0.03;        ///< of the path between two passes, added to 'max_centroid_distance'
-  std::optional<double> threshold;      ///< least similarity; none: relative, as follows
-  double relative_threshold = 0.7;      ///< of the median similarity of consecutive segments
-  std::uint32_t loops_per_segment = 2;  ///< edges are added until both ends have so many
+  std::uint32_t candidates = 3;
+  std::optional<double> min_path_separation;    ///< none: 4 x the median step
+  std::optional<double> max_centroid_distance;  ///< none: 2 x the median step
+  double drift = 0.03;
+  std::optional<double> threshold;  ///< none: relative, as follows
+  double relative_threshold = 0.7;
+  std::uint32_t loops_per_segment = 2;
+
+  /// As parameters of a step.
+  template <class Declare>
+  static void describe(Declare& is) {
+    is.param("candidates", &LoopOptions::candidates)
+        .range(1, 1000)
+        .doc("number of nearest centroids that are compared by similarity")
+        .source("[Tang2024] 2.3.1");
+    is.param("min_path_separation", &LoopOptions::min_path_separation)
+        .unit("m")
+        .range(0, 1e6)
+        .doc("path between two visits; none: 4 x the median distance of consecutive segments");
+    is.param("max_centroid_distance", &LoopOptions::max_centroid_distance)
+        .unit("m")
+        .range(0, 1e6)
+        .doc(
+            "distance of the centroids without drift; none: 2 x the median distance of consecutive "
+            "segments");
+    is.param("drift", &LoopOptions::drift)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "expected drift, as a share of the path between two visits; added to "
+            "'max_centroid_distance'");
+    is.param("threshold", &LoopOptions::threshold)
+        .range(0, 1)
+        .doc(
+            "least similarity; none: 'relative_threshold' x the median similarity of consecutive "
+            "segments");
+    is.param("relative_threshold", &LoopOptions::relative_threshold)
+        .unit("%")
+        .range(0, 10)
+        .doc("see 'threshold'");
+    is.param("loops_per_segment", &LoopOptions::loops_per_segment)
+        .range(1, 1000)
+        .doc("edges are added until both ends have this many");
+  }
 };
 
 struct Loops {

@@ -41,6 +41,42 @@ struct SolvePoseGraph : WholeStep {
     is.output("uncertainty", &Out::uncertainty,
               "with 'uncertainty: true', the uncertainty of each pose relative to the first: "
               "absolute poses with their information");
+    describe_matches(is);
+    describe_constraints(is);
+    is.param("max_rounds", &Params::max_rounds)
+        .range(1, 1000)
+        .doc("rounds of reweighting; with anneal_from two thirds of them shrink the scale");
+    is.param("max_iterations", &Params::max_iterations)
+        .range(1, 10000)
+        .doc("iterations of Levenberg-Marquardt in one round");
+    describe_uncertainty(is);
+    is.param("tolerance", &Params::tolerance)
+        .unit("m")
+        .range(0, 1)
+        .doc("rounds end when no pose moves by more than this, a rotation taken at 10 m");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    if (!in.matches && in.constraints.empty())
+      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'constraints' or both");
+    std::vector<One<Matches>> held;
+    std::vector<MatchedEdge> edges;
+    if (in.matches) {
+      held.resize(in.matches.size());
+      context.parallel(held.size(), [&](std::size_t k) { held[k] = in.matches.open(k); });
+      for (std::size_t k = 0; k < held.size(); ++k)
+        edges.push_back({in.matches.edges().list[k], &*held[k]});
+    }
+    const Constraints constraints = joined(in.constraints);
+    auto result =
+        solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
+                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    for (const auto& warning : result.warnings) context.warn(warning);
+    return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
+  }
+
+ private:
+  static void describe_matches(Declaration<SolvePoseGraph>& is) {
     is.choice("loss", &Params::loss, losses)
         .doc("robust loss of a pair's squared residual")
         .source("[Tang2024] 2.1");
@@ -73,6 +109,9 @@ struct SolvePoseGraph : WholeStep {
     is.param("max_edge_weight", &Params::max_edge_weight)
         .range(1, 1e9)
         .doc("total weight of all pairs of an edge, in pairs; none: every pair counts");
+  }
+
+  static void describe_constraints(Declaration<SolvePoseGraph>& is) {
     is.param("odometry_translation_sigma", &Params::odometry_translation_sigma)
         .unit("m")
         .range(1e-6, 1e6)
@@ -95,12 +134,9 @@ struct SolvePoseGraph : WholeStep {
         .doc(
             "standard deviations at which the loss begins to down-weight a constraint that is not "
             "sequential");
-    is.param("max_rounds", &Params::max_rounds)
-        .range(1, 1000)
-        .doc("rounds of reweighting; with anneal_from two thirds of them shrink the scale");
-    is.param("max_iterations", &Params::max_iterations)
-        .range(1, 10000)
-        .doc("iterations of Levenberg-Marquardt in one round");
+  }
+
+  static void describe_uncertainty(Declaration<SolvePoseGraph>& is) {
     is.param("estimate_variance", &Params::estimate_variance)
         .doc(
             "weight edges relative to sequential constraints by their mutual disagreement "
@@ -117,32 +153,8 @@ struct SolvePoseGraph : WholeStep {
         .range(0.01, 1000)
         .doc(
             "factor on the standard deviations, since edges that share a segment share its errors");
-    is.param("tolerance", &Params::tolerance)
-        .unit("m")
-        .range(0, 1)
-        .doc("rounds end when no pose moves by more than this, a rotation taken at 10 m");
   }
 
-  Out run(const In& in, const Params& params, Context& context) const {
-    if (!in.matches && in.constraints.empty())
-      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'constraints' or both");
-    std::vector<One<Matches>> held;
-    std::vector<MatchedEdge> edges;
-    if (in.matches) {
-      held.resize(in.matches.size());
-      context.parallel(held.size(), [&](std::size_t k) { held[k] = in.matches.open(k); });
-      for (std::size_t k = 0; k < held.size(); ++k)
-        edges.push_back({in.matches.edges().list[k], &*held[k]});
-    }
-    const Constraints constraints = joined(in.constraints);
-    auto result =
-        solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
-                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
-    for (const auto& warning : result.warnings) context.warn(warning);
-    return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
-  }
-
- private:
   /// One graph of all; those that hold nothing say nothing of the plane.
   static Constraints joined(const Several<Constraints>& several) {
     Constraints all;

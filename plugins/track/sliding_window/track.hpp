@@ -10,7 +10,7 @@
 namespace plumb {
 
 struct TrackOptions : SubmapOptions {
-  IcpOptions icp;
+  IcpOptions icp = {.stop = Stop::ratio, .metric = Metric::line};
   double min_translation =
       0.25;  ///< [m] a scan farther than this from the window's newest joins the window
   double min_rotation = 15 * deg;  ///< [rad] or rotated by more

@@ -40,8 +40,53 @@ struct IcpOptions {
   double max_correspondence_distance = 0.3;  ///< [m] between the points of a pair
   std::uint32_t max_iterations = 50;         ///< at most
   double noise = 0.03;                       ///< [m] standard deviation of a pair's residual
-  std::optional<double> start_sigma;         ///< [m] standard deviation of the start's place; its
-                                      ///< heading's is a third of that in rad. Metric::line only
+  std::optional<double> start_sigma = {};    ///< [m] standard deviation of the start's place; its
+                                             ///< heading's is a third of that in rad. Metric::line
+                                             ///< only
+
+  /// As parameters of a step.
+  template <class Declare>
+  static void describe(Declare& is) {
+    is.choice("stop", &IcpOptions::stop,
+              {{"ratio", Stop::ratio,
+                "when the mean distance of the pairs stops decreasing: IA-ICP, eq. (12)"},
+               {"change", Stop::change, "when the pose converges: standard ICP"}})
+        .doc("when a registration ends")
+        .source("[Zhang2023] eq. (12)");
+    is.choice(
+          "metric", &IcpOptions::metric,
+          {{"point", Metric::point, "point-to-point distance"},
+           {"line", Metric::line,
+            "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
+        .doc("the error that is minimised")
+        .source("[Zhang2023] eq. (3)");
+    is.param("max_correspondence_distance", &IcpOptions::max_correspondence_distance)
+        .unit("m")
+        .range(1e-3, 100)
+        .doc("distance between the two points of a pair");
+    is.param("max_iterations", &IcpOptions::max_iterations)
+        .range(0, 10000)
+        .doc("iterations; 0: the initial guess is only evaluated");
+    is.param("change", &IcpOptions::change)
+        .range(1e-9, 1)
+        .doc("converged when an iteration moves the pose by less, m and rad added");
+    is.param("ratio", &IcpOptions::ratio)
+        .range(0, 1)
+        .source("[Zhang2023] 2")
+        .doc(
+            "stops when the mean distance of the pairs is at least this times that of the "
+            "iteration before");
+    is.param("noise", &IcpOptions::noise)
+        .unit("m")
+        .range(1e-4, 10)
+        .doc("standard deviation of a pair's residual, for the information");
+    is.param("start_sigma", &IcpOptions::start_sigma)
+        .unit("m")
+        .range(1e-4, 100)
+        .doc(
+            "with metric line, standard deviation of the initial guess's position, a third of it "
+            "in rad for the heading; none: no prior");
+  }
 };
 
 struct IcpResult {
