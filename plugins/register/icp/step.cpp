@@ -54,7 +54,7 @@ struct Register : EdgeStep {
            {"line", Metric::line,
             "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
         .doc("the error that is minimised")
-        .source("[Zhang2023] eq. (3)");
+        .source("[Zhang2023] eq. (3) for point");
     is.param("max_iterations", &Params::max_iterations)
         .range(0, 10000)
         .doc("iterations; 0: the initial guess is only evaluated");
@@ -120,7 +120,7 @@ struct RegisterIcp : Register<Stop::change> {
 
 struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
-    is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
+    is.name("register.ia_icp").version(1).source("[Zhang2023] 2, eq. (12)");
     is.summary(
         "Registers planar clouds by ICP (iterative closest points), until the mean distance of the "
         "pairs stops decreasing.");

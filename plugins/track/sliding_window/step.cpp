@@ -78,12 +78,12 @@ struct TrackSlidingWindow : WholeStep {
                 "when the mean distance of the pairs stops decreasing: IA-ICP, eq. (12)"},
                {"change", Stop::change, "when the pose converges: standard ICP"}})
         .doc("when a registration ends")
-        .source("[Zhang2023] eq. (12)");
+        .source("[Zhang2023] 2, eq. (12) for ratio");
     is.choice("metric", &Params::metric,
               {{"line", Metric::line, "point-to-line distance, along the submap's normal"},
                {"point", Metric::point, "point-to-point distance"}})
         .doc("the error that is minimised")
-        .source("[Zhang2023] eq. (3)");
+        .source("[Zhang2023] eq. (3) for point");
     is.param("max_correspondence_distance", &Params::max_correspondence_distance)
         .unit("m")
         .range(1e-3, 100)
