@@ -1,7 +1,11 @@
-# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED])
+# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED]
+#                [LICENCE "SPDX expression" LICENCE_REASON "sentence"])
 #
 # Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
 # (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
+#
+# LICENCE is what whoever loads the module accepts: the licence of its own code AND those of all libraries that it loads beside libplumb and what
+# that loads; BSD-3-Clause if not given. LICENCE_REASON names the libraries and says which brings what.
 # A module is loaded only from where nobody else may write, whatever the umask of who builds it: plumb_close_folder(FOLDER) makes such a folder.
 function(plumb_close_folder folder)
   file(MAKE_DIRECTORY ${folder})
@@ -9,13 +13,18 @@ function(plumb_close_folder folder)
 endfunction()
 
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "NOT_INSTALLED" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "NOT_INSTALLED" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
   endif()
   if(NOT arg_TESTS)
     file(GLOB arg_TESTS CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  endif()
+  if(NOT arg_LICENCE)
+    set(arg_LICENCE BSD-3-Clause)
+  elseif(NOT arg_LICENCE_REASON)
+    message(FATAL_ERROR "${step}: LICENCE needs LICENCE_REASON, a sentence that says which library brings what")
   endif()
   string(REPLACE "." "_" id ${step})
 
@@ -37,8 +46,9 @@ function(plumb_add_step step)
     add_custom_command(TARGET step_${id} POST_BUILD
                        COMMAND chmod go-w $<TARGET_FILE:step_${id}>
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
+                               ${arg_LICENCE} ${arg_LICENCE_REASON}
                        COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
-                       COMMENT "Manifest of ${step}")
+                       COMMENT "Manifest of ${step}" VERBATIM)
     add_dependencies(step_${id} plumb_manifest)
   endif()
   if(NOT arg_NOT_INSTALLED)

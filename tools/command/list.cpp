@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "licence_table.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/pipeline/yaml/former_names.hpp"
@@ -38,10 +39,12 @@ std::string type_text(const Type& type) {
          (type.grain == Grain::whole ? "" : std::string(", one per ") + name_of(type.grain));
 }
 
-void print_step(const StepDescription& step) {
+void print_step(const StepDescription& step, const Licence& licence) {
   std::cout << step.name << "  version " << step.version << ", a " << name_of(step.kind) << "\n  "
             << step.summary << "\n";
   if (!step.source.empty()) std::cout << "  Source: " << step.source << "\n";
+  std::cout << "  Licence of its module: " << licence.text() << "\n";
+  if (!licence.reason.empty()) std::cout << "      " << licence.reason << "\n";
   std::cout << "\nInputs\n";
   for (const auto& port : step.inputs) {
     const std::string how = word_of(port.access);
@@ -68,15 +71,26 @@ void print_step(const StepDescription& step) {
   if (step.parameters.empty()) std::cout << "  none\n";
 }
 
+void print_steps(const Registry& steps) {
+  for (const StepDescription* step : steps.all())
+    std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind)
+              << step->summary << "\n";
+}
+
 }  // namespace
 
 void add_list(CLI::App& app) {
   auto* command = app.add_subcommand("list", "Lists the steps that pipelines can use");
-  command->callback([] {
+  auto licences = std::make_shared<bool>(false);
+  command->add_flag("--licences", *licences,
+                    "What whoever loads a module accepts: its own licence and those of the "
+                    "libraries that it brings, with its steps and the reason");
+  command->callback([licences] {
     const Registry steps = installed_steps();
-    for (const StepDescription* step : steps.all())
-      std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind)
-                << step->summary << "\n";
+    if (*licences)
+      print_licences(std::cout, steps);
+    else
+      print_steps(steps);
     for (const Refusal& refusal : steps.refused())
       std::cerr << "refused: " << refusal.file.string() << ": " << refusal.why << "\n";
   });
@@ -84,7 +98,7 @@ void add_list(CLI::App& app) {
 
 void add_inspect(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "inspect", "Shows one step's ports, parameters, units, ranges, defaults and source");
+      "inspect", "Shows one step's ports, parameters, units, ranges, defaults, source and licence");
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   command->add_option("STEP", *name, "FAMILY.NAME, as in `plumb list`")->required();
@@ -105,9 +119,9 @@ void add_inspect(CLI::App& app) {
                   " `plumb list` shows all.");
     }
     if (*as_json)
-      std::cout << step_json(*step) << "\n";
+      std::cout << step_json(*step, steps.licence_of(*step)) << "\n";
     else
-      print_step(*step);
+      print_step(*step, steps.licence_of(*step));
   });
 }
 

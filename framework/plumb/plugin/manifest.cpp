@@ -215,14 +215,34 @@ StepDescription step_of(const json& j) {
   return s;
 }
 
+json licence_json(const Licence& licence) {
+  return {{"expression", licence.expression}, {"reason", licence.reason}};
+}
+
+Licence licence_of(const json& j) {
+  if (!j.contains("licence")) return {};
+  const json& stated = j.at("licence");
+  Licence licence{stated.at("expression"), stated.at("reason")};
+  if (const std::string fault = fault_of_licence(licence.expression); !fault.empty())
+    throw Error(fault);
+  return licence;
+}
+
+std::string dumped(const json& j) { return j.dump(2, ' ', true, json::error_handler_t::replace); }
+
 }  // namespace
 
-std::string step_json(const StepDescription& step) {
-  return to_json(step).dump(2, ' ', true, json::error_handler_t::replace);
+std::string step_json(const StepDescription& step) { return dumped(to_json(step)); }
+
+std::string step_json(const StepDescription& step, const Licence& licence) {
+  json j = to_json(step);
+  j["licence"] = licence.expression.empty() ? json(nullptr) : licence_json(licence);
+  return dumped(j);
 }
 
 std::string manifest_text(const Manifest& manifest) {
   json j = {{"plumb_manifest", manifest_version}, {"abi", manifest.abi_tag}};
+  if (!manifest.licence.expression.empty()) j["licence"] = licence_json(manifest.licence);
   add_definitions(j, manifest.steps);
   j["steps"] = json::array();
   for (const auto& step : manifest.steps) j["steps"].push_back(to_json(step));
@@ -234,7 +254,7 @@ Manifest read_manifest(const std::string& text, const std::string& file) {
     const json j = json::parse(text);
     if (j.at("plumb_manifest") != manifest_version)
       throw Error("made for another version of Plumb");
-    Manifest manifest{j.at("abi"), {}};
+    Manifest manifest{j.at("abi"), {}, licence_of(j)};
     if (manifest.abi_tag != abi_tag()) return manifest;  // what it defines may be something else
     define_all(j);
     for (const auto& step : j.at("steps")) manifest.steps.push_back(step_of(step));

@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A step of version 7 with a whole parameter whose default is 5.
+/// A step of version 7 with a whole parameter whose default is 5, in a module with zlib.
 Manifest small_manifest() {
   StepDescription step;
   step.name = "test.small";
@@ -19,7 +19,7 @@ Manifest small_manifest() {
   count.kind = ParameterKind::integer;
   count.standard = std::int64_t{5};
   step.parameters = {count};
-  return {"abi", {step}};
+  return {"abi", {step}, {"BSD-3-Clause AND Zlib", "zlib is Zlib."}};
 }
 
 std::string with(const std::string& old, const std::string& fresh) {
@@ -39,6 +39,33 @@ std::string refusal_of(const std::string& text) {
 TEST(Manifest, IsReadAsItWasWritten) {
   const std::string text = manifest_text(small_manifest());
   EXPECT_EQ(manifest_text(read_manifest(text, "small.json")), text);
+}
+
+TEST(Manifest, HoldsTheLicencesOfItsModule) {
+  const Manifest manifest = read_manifest(manifest_text(small_manifest()), "small.json");
+  EXPECT_EQ(manifest.licence.text(), "BSD-3-Clause AND Zlib");
+  EXPECT_EQ(manifest.licence.reason, "zlib is Zlib.");
+  EXPECT_THAT(step_json(manifest.steps[0], manifest.licence),
+              HasSubstr("\"expression\": \"BSD-3-Clause AND Zlib\""));
+}
+
+TEST(Manifest, WithoutLicencesIsThatOfAnEarlierBuild) {
+  Manifest earlier = small_manifest();
+  earlier.licence = {};
+  const std::string text = manifest_text(earlier);
+  EXPECT_EQ(text.find("licence"), std::string::npos);
+  EXPECT_EQ(read_manifest(text, "small.json").licence.text(), "not stated");
+  EXPECT_THAT(step_json(earlier.steps[0], earlier.licence), HasSubstr("\"licence\": null"));
+}
+
+TEST(Manifest, WithALicenceThatIsNoneIsRefused) {
+  const std::string expression = "\"BSD-3-Clause AND Zlib\"";
+  EXPECT_THAT(refusal_of(with(expression, "\"\"")),
+              HasSubstr("small.json: not a manifest that can be used: its licence is empty"));
+  EXPECT_THAT(refusal_of(with(expression, "\"GPL\"")),
+              HasSubstr("names 'GPL', which is not known"));
+  EXPECT_THAT(refusal_of(with(expression, "7")), HasSubstr("not a manifest that can be used"));
+  EXPECT_THAT(refusal_of(with("\"reason\"", "\"because\"")), HasSubstr("'reason' not found"));
 }
 
 TEST(Manifest, TakesNoOtherNumberForAWholeOne) {

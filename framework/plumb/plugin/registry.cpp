@@ -74,6 +74,7 @@ Registry Registry::scan(const std::vector<fs::path>& folders) {
 void Registry::take(const fs::path& module) {
   try {
     Manifest manifest = manifest_of(module);
+    licences_[module.string()] = manifest.licence;
     for (StepDescription& step : manifest.steps) {
       step.module = module.string();
       const auto [at, is_new] = entries_.try_emplace(step.name);
@@ -101,6 +102,12 @@ std::vector<const StepDescription*> Registry::all() const {
   std::vector<const StepDescription*> list;
   for (const auto& [name, entry] : entries_) list.push_back(&entry.description);
   return list;
+}
+
+const Licence& Registry::licence_of(const StepDescription& step) const {
+  static const Licence not_stated{};
+  const auto at = licences_.find(step.module);
+  return at == licences_.end() ? not_stated : at->second;
 }
 
 const Step& Registry::step(const std::string& name) const {

@@ -20,7 +20,9 @@ struct ApplyChain : WholeStep {
   using Params = ChainOptions;
 
   static void describe(Declaration<ApplyChain>& is) {
-    is.name("apply.chain").version(1).source("[Zhang2023] 2");
+    is.name("apply.chain")
+        .version(1)
+        .source("[Zhang2023] 2; what stands for a registration that failed is ours");
     is.summary("Composes the registrations of consecutive segments into a trajectory.");
     is.input("poses", &In::poses, "poses of the segments from odometry");
     is.input("registrations", &In::registrations,

@@ -27,7 +27,7 @@ struct DescribeFpfh : SegmentStep {
     is.name("describe.fpfh").version(1);
     is.summary(
         "Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
-    is.source("[Rusu2009] II; [Tang2024] 2.3.2");
+    is.source("[Rusu2009] II; [Tang2024] 2.3.2; the keypoints are ours");
     is.input("segment", &In::segment, "a cloud with normals");
     is.scale(&In::scale);
     is.output("features", &Out::features, "keypoints with their histograms and border marks");
@@ -51,7 +51,7 @@ struct DescribeFpfh : SegmentStep {
         .doc(
             "a keypoint is at the border if its neighbours leave a sector free that is wider than "
             "this")
-        .source("[Xiong2018]");
+        .source("PCL, BoundaryEstimation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {

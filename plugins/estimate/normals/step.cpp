@@ -29,7 +29,7 @@ struct EstimateNormals : SegmentStep {
     is.name("estimate.normals").version(1);
     is.summary(
         "Estimates the normal of every point from its neighbourhood, oriented towards the sensor.");
-    is.source("[Rusu2009] II.A; turned as in [Tang2024] 2.3.2");
+    is.source("[Rusu2009] II.A; the orientation is ours");
     is.input("segment", &In::segment, "the cloud");
     is.scale(&In::scale);
     is.output("segment", &Out::segment,

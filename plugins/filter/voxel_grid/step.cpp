@@ -17,7 +17,7 @@ struct VoxelGrid : SegmentStep {
   };
 
   static void describe(Declaration<VoxelGrid>& is) {
-    is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2");
+    is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2; the mean as in [Zhang2023] 2");
     is.summary("Downsamples a cloud to one point per voxel, the mean of its points.");
     is.input("segment", &In::segment, "the cloud to downsample");
     is.scale(&In::scale);

@@ -79,7 +79,9 @@ struct Loops {
 /// ... or (i-1, j+1), (i+1, j-1), ..., whichever way has the greater sum of similarities, until the
 /// threshold or what a partner may be is not met. Then the same from the most similar pair that is
 /// left and has an end with too few edges. So there are at most loops_per_segment x segments edges.
-/// Source: [Tang2024] 2.3.1; the second way and the later walks are ours.
+/// Source: [Tang2024] 2.3.1 and its figure 1, whose text names of the walk only that it ends where
+/// (i-2, j-2) is below the threshold. How near and how far along the path a partner must be, the
+/// relative threshold, further partners, the second way and the later walks are ours.
 Loops find_loops(const Places& places,
                  const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options);

@@ -25,7 +25,7 @@ struct LoopEdges : WholeStep {
   static void describe(Declaration<LoopEdges>& is) {
     is.name("loops.descriptor").version(1);
     is.summary("Proposes loop edges between segments whose descriptors are similar.");
-    is.source("[Tang2024] 2.3.1, eq. 1");
+    is.source("[Tang2024] 2.3.1, eq. 1, fig. 1");
     is.input("descriptors", &In::descriptors, "one vector per segment");
     is.input("segments", &In::segments, "the clouds, for their centroids");
     is.input("poses", &In::poses, "the current poses of the segments");

@@ -18,7 +18,11 @@ struct LoopsSubmap : WholeStep {
   using Params = LoopOptions;
 
   static void describe(Declaration<LoopsSubmap>& is) {
-    is.name("loops.submap").version(1).source("[Zhang2023] 1, 2; [Olson2009]");
+    is.name("loops.submap")
+        .version(1)
+        .source(
+            "[Zhang2023] 1; the search and the acceptance are ours, after [Olson2009], [Hess2016], "
+            "[Mangelson2018]");
     is.summary(
         "Finds loops by registering a submap of the newest scans to the map of earlier ones.");
     is.input("segments", &In::segments, "the clouds, in the plane");

@@ -1,6 +1,6 @@
 #pragma once
 /// Loops by registering a submap of the newest scans to the map of earlier ones. Source:
-/// [Zhang2023] 1, 2; the search is ours.
+/// [Zhang2023] 1; which places are tried, the search and what is accepted are ours.
 
 #include <functional>
 #include <memory>

@@ -28,7 +28,7 @@ struct Nearest : EdgeStep {
   static void describe(Declaration<Nearest>& is) {
     is.name("match.nearest").version(1);
     is.summary("Matches each point of one segment with the nearest point of the other.");
-    is.source("[Tang2024] 2.3.2");
+    is.source("[Tang2024] 2.3.2; [Chen1992] for metric plane");
     is.input("edges", &In::edges, "pairs of segments");
     is.input("segments", &In::segments,
              "the clouds; with normals for 'metric: plane' and 'max_normal_angle'");

@@ -23,7 +23,9 @@ struct MeasureMapError : WholeStep {
   };
 
   static void describe(Declaration<MeasureMapError>& is) {
-    is.name("measure.map_error").version(1).source("[Zhang2023] 3");
+    is.name("measure.map_error")
+        .version(1)
+        .source("[Zhang2023] 3; the alignment and what counts as accurate are ours");
     is.summary("Measures the distance of a map's walls from those of the true floor plan.");
     is.input("map", &In::map, "the map");
     is.optional_input(

@@ -20,7 +20,7 @@ IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
                          std::optional<std::uint32_t> max_points);
 
 /// Root of the mean squared distance [m] of the pairs under `T_j_i`; NaN for no pairs. Source:
-/// [Tang2024] eq. 3
+/// [Tang2024] eq. 3.
 double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, const Pose& T_j_i);
 
 }  // namespace plumb

@@ -30,7 +30,7 @@ struct MatchRmse : WholeStep {
         .summary(
             "Measures the RMSE of nearest-point matches between neighbouring segments, averaged "
             "over all edges.")
-        .source("[Tang2024] eq. 3, 3.3");
+        .source("[Tang2024] eq. 3, 3.3; pairs found once are ours");
     is.input("edges", &In::edges, "pairs of segments that are compared");
     is.input("segments", &In::segments, "their clouds, downsampled as they are to be compared");
     is.input("poses", &In::poses, "poses of the segments; one number for each, by its label");

@@ -26,7 +26,7 @@ struct MeasureTrajectory : WholeStep {
         .version(2)
         .summary(
             "Measures the absolute and relative pose errors of trajectories against a true one.")
-        .source("Sturm et al. 2012");
+        .source("[Sturm2012]; [Zhang2023] 3 for the displacement");
     is.input("trajectories", &In::trajectories,
              "any number of trajectories; numbers are named after the label");
     is.output("metrics", &Out::metrics,

@@ -26,7 +26,7 @@ struct RegisterCorrelative : EdgeStep {
   };
 
   static void describe(Declaration<RegisterCorrelative>& is) {
-    is.name("register.correlative").version(1).source("[Olson2009]");
+    is.name("register.correlative").version(1).source("[Olson2009], [Hess2016]");
     is.summary(
         "Registers planar clouds by exhaustive search of a window around the current pose "
         "(correlative scan matching).");

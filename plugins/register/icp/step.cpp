@@ -87,7 +87,7 @@ struct RegisterIcp : Register<Stop::change> {
 
 struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
-    is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
+    is.name("register.ia_icp").version(1).source("[Zhang2023] 2, eq. (12)");
     is.summary(
         "Registers planar clouds by ICP (iterative closest points), until the mean distance of the "
         "pairs stops decreasing.");

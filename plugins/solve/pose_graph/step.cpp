@@ -29,7 +29,9 @@ struct SolvePoseGraph : WholeStep {
     is.name("solve.pose_graph")
         .version(2)
         .summary("Optimizes the poses of all segments so that matches and constraints agree.")
-        .source("[Tang2024] 2.1, 2.4.1");
+        .source(
+            "[Tang2024] 2.1, 2.4.1; the other losses, the bounds on weights and pairs to planes "
+            "are ours");
     is.input("poses", &In::poses, "initial poses of the segments");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
     is.optional_input(
@@ -79,7 +81,7 @@ struct SolvePoseGraph : WholeStep {
   static void describe_matches(Declaration<SolvePoseGraph>& is) {
     is.choice("loss", &Params::loss, losses)
         .doc("robust loss of a pair's squared residual")
-        .source("[Tang2024] 2.1");
+        .source("[Tang2024] 2.4.1 for huber");
     is.param("scale", &Params::scale)
         .unit("m")
         .range(1e-4, 1000)

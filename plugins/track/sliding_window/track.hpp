@@ -1,6 +1,6 @@
 #pragma once
-/// Tracks a 2-D laser: registers each scan to the submap of those before it. Source:
-/// [Zhang2023] 2.
+/// Tracks a 2-D laser: registers each scan to the submap of those before it. Source: the window is
+/// that of [Zhang2023] 2, where adjacent scans are registered to each other; to the submap is ours.
 
 #include <span>
 

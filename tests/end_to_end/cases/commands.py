@@ -17,7 +17,7 @@ def test_help_names_every_command_and_the_exit_codes(folder):
 
 def test_each_command_has_help_with_its_options(folder):
     expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
-                "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "inspect": ["--json"], "schema": ["--output"],
+                "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "list": ["--licences"], "inspect": ["--json"], "schema": ["--output"],
                 "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
                 "compare": ["--variant", "--input", "--metric", "--time", "--json", "--cache-dir"], "cache": ["verify", "prune", "--cache-dir", "Example"]}
     for command in COMMANDS:

@@ -1,6 +1,6 @@
 #pragma once
 /// Iterated closest points in the plane, with two rules for when to stop. Source: [Zhang2023] eq.
-/// (1) to (12).
+/// (1) to (12); the distance to lines, the prior and the rule `change` are ours.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace plumb {
 
 enum class Stop {
   change,  ///< the pose moved by less than `change` ([m] + [rad]): the usual ICP
-  ratio    ///< MAE_n / MAE_(n-1) >= ratio: IA-ICP, eq. (12); MAE is the mean distance of the pairs
+  ratio    ///< MAE_n / MAE_(n-1) >= ratio: IA-ICP; MAE is the mean distance of the pairs, eq. (12)
 };
 enum class Metric {
   point,  ///< eq. (3): the distance of the pairs
@@ -59,7 +59,7 @@ struct IcpOptions {
            {"line", Metric::line,
             "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
         .doc("the error that is minimised")
-        .source("[Zhang2023] eq. (3)");
+        .source("[Zhang2023] eq. (3) for point");
     is.param("max_correspondence_distance", &IcpOptions::max_correspondence_distance)
         .unit("m")
         .range(1e-3, 100)
