@@ -13,12 +13,12 @@ namespace plumb {
 /// the type `ranges`, one an item, says. Or it joins two items of another kind (an edge two
 /// segments); then one value of the type `list` says which items there are.
 struct ItemKind {
-  std::string name;        ///< "segment"
-  std::string parts;       ///< the kind of what an item is made of; empty: of nothing
-  std::string ranges;      ///< the type that says of which parts
-  std::string ends;        ///< the kind of the two items that an item joins; empty: it joins none
-  std::string list;        ///< the type that lists the items
-  bool transient = false;  ///< values are made anew whenever they are asked for, and never kept
+  std::string name = {};    ///< "segment"
+  std::string parts = {};   ///< the kind of what an item is made of; empty: of nothing
+  std::string ranges = {};  ///< the type that says of which parts
+  std::string ends = {};    ///< the kind of the two items that an item joins; empty: it joins none
+  std::string list = {};    ///< the type that lists the items
+  bool transient = false;   ///< values are made anew whenever they are asked for, and never kept
 
   bool operator==(const ItemKind&) const = default;
 };

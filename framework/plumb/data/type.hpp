@@ -45,12 +45,12 @@ struct TypeCode {
 /// A type that may travel on a wire. There is one object per type in a process: compare addresses.
 /// All but `code` is known from a manifest.
 struct Type {
-  std::string name;
+  std::string name = {};
   int version = 1;
   const ItemKind* kind = nullptr;  ///< null: one value for the whole pipeline
   bool large = false;              ///< not worth keeping where only one step takes it: clouds
   bool has_numbers = false, has_empty = false;
-  std::string layout;              ///< how a value lies in memory where `code` was compiled
+  std::string layout = {};         ///< how a value lies in memory where `code` was compiled
   const TypeCode* code = nullptr;  ///< null as long as no module that defines it is loaded
 };
 
