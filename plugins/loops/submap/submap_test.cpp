@@ -3,29 +3,21 @@
 #include <gtest/gtest.h>
 
 #include "consistent.hpp"
-#include "plumb/geometry/planar.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "shared/planar/room_testing.hpp"
 #include "uncertainty.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 namespace {
 
-/// Walls as segments x0 y0 x1 y1 [m].
-using Plan = std::vector<std::array<double, 4>>;
+using planar::PlanarPose;
+using Plan = planar::Walls;
 
 Cloud scan(const Plan& plan, const PlanarPose& at) {
   Cloud cloud;
   for (int k = 0; k < 240; ++k) {
-    const double angle = 2 * M_PI * k / 240, dx = std::cos(at.yaw + angle),
-                 dy = std::sin(at.yaw + angle);
-    double nearest = 12;
-    for (const auto& w : plan) {
-      const double ex = w[2] - w[0], ey = w[3] - w[1], det = ex * dy - ey * dx;
-      if (std::abs(det) < 1e-12) continue;
-      const double px = w[0] - at.x, py = w[1] - at.y;
-      const double range = (ex * py - ey * px) / det, along = (dx * py - dy * px) / det;
-      if (range > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, range);
-    }
+    const double angle = 2 * M_PI * k / 240,
+                 nearest = planar::distance_to(plan, at, at.yaw + angle, 12);
     if (nearest < 12)
       cloud.add({static_cast<float>(nearest * std::cos(angle)),
                  static_cast<float>(nearest * std::sin(angle)), 0});
@@ -91,7 +83,7 @@ Loops loops_of(const Drive& drive, const LoopOptions& options = {}) {
 
 double wrong_by(const Drive& drive, const RelativePose& loop) {
   const PlanarPose truth = drive.truth[loop.i].inverse() * drive.truth[loop.j],
-                   found = planar(loop.T_i_j);
+                   found = planar::projected(loop.T_i_j);
   return std::hypot(truth.x - found.x, truth.y - found.y);
 }
 
@@ -138,7 +130,7 @@ TEST(LoopsSubmap, FindsNoLoopOnAStraightPath) {
 }
 
 TEST(LoopsSubmap, StepSaysThatPosesOfOthersWereWired) {
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   TestContext context;
   step.each("segments", std::vector<Segment>(3)).with("poses", Poses());
   EXPECT_THROW(step.run<Constraints>("constraints", context), Error);
@@ -173,4 +165,4 @@ TEST(Paths, AreShorterOverAKnownLoop) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "pose_graph.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 const std::vector<ChoiceOf<Loss>> losses = {
@@ -137,7 +137,7 @@ struct SolvePoseGraph : WholeStep {
     const Constraints constraints = joined(in.constraints);
     auto result =
         solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
-                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+                         parallel::on(context));
     for (const auto& warning : result.warnings) context.warn(warning);
     return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
   }
@@ -164,6 +164,6 @@ struct SolvePoseGraph : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph
 
-PLUMB_MODULE(plumb::SolvePoseGraph)
+PLUMB_MODULE(plumb::solve_pose_graph::SolvePoseGraph)

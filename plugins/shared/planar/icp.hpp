@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "plumb/geometry/planar.hpp"
 #include "plumb/geometry/search_tree.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::planar {
 
 enum class Stop {
   change,  ///< the pose moved by less than `change` ([m] + [rad]): the usual ICP
@@ -51,7 +51,7 @@ struct IcpResult {
   double mae = 0;           ///< [m] mean distance of those pairs
   double overlap = 0;       ///< share of the source's points that have a pair
   Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see planar_icp.cpp
+      Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see icp.cpp
 };
 
 /// Registers `source` to `target`, with the initial guess `start`. Pairs are each source point and
@@ -60,4 +60,4 @@ struct IcpResult {
 IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
                 const PlanarPose& start, const IcpOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::planar
