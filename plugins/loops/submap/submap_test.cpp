@@ -108,7 +108,8 @@ TEST(LoopsSubmap, RefusesWhatIsNotUnique) {
     at = at * PlanarPose{k < 40 ? 0.4 : -0.4, 0, 0};
     there_and_back.truth.push_back(at);
     // The path is believed to be 3 % longer than it is.
-    there_and_back.drifted.T_world_segment.push_back(in_space({22 + 1.03 * (at.x - 22), at.y, 0}));
+    there_and_back.drifted.T_world_segment.push_back(
+        planar::in_space({22 + 1.03 * (at.x - 22), at.y, 0}));
     there_and_back.segments.push_back(segment_of(scan(hall, at)));
   }
   const Loops loops = loops_of(there_and_back);
@@ -140,7 +141,7 @@ TEST(Consistent, DropsTheLoopThatNoOtherAgreesWith) {
   Poses poses;
   for (int k = 0; k < 100; ++k)
     poses.T_world_segment.push_back(
-        in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
+        planar::in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
   std::vector<RelativePose> loops;
   for (const std::uint32_t j : {70u, 74u, 78u})
     loops.push_back({100 - j, j, poses.relative(100 - j, j), Matrix6d::Identity()});
@@ -155,7 +156,7 @@ TEST(Consistent, DropsTheLoopThatNoOtherAgreesWith) {
 
 TEST(Paths, AreShorterOverAKnownLoop) {
   Poses poses;
-  for (int k = 0; k <= 10; ++k) poses.T_world_segment.push_back(in_space({1.0 * k, 0, 0}));
+  for (int k = 0; k <= 10; ++k) poses.T_world_segment.push_back(planar::in_space({1.0 * k, 0, 0}));
   Constraints loops;
   loops.relative.push_back({0, 10, Pose(), Matrix6d::Identity()});
   EXPECT_DOUBLE_EQ(Paths(poses, nullptr, 0.3, 1).from(10)[1], 9);
