@@ -1,3 +1,34 @@
+# plumb_add_shared(NAME [LIBRARIES ...])
+#
+# Builds plumb_shared_NAME, kernels that several steps share, from the .cpp files of the calling folder plugins/shared/NAME (all but *_test.cpp), and
+# its test from *_test.cpp. Who links it includes "shared/NAME/FILE.hpp". Where there are headers alone, it is they that are linked.
+function(plumb_add_shared name)
+  cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(tests ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  set(target plumb_shared_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/plugins)
+    target_link_libraries(${target} PUBLIC plumb_slam ${arg_LIBRARIES})
+    target_compile_options(${target} PRIVATE ${PLUMB_WARNINGS})
+    plumb_precompiled_step(${target})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/plugins)
+    target_link_libraries(${target} INTERFACE plumb_slam ${arg_LIBRARIES})
+  endif()
+
+  if(PLUMB_TESTS AND tests)
+    add_executable(test_shared_${name} ${tests})
+    plumb_precompiled_test(test_shared_${name})
+    target_link_libraries(test_shared_${name} PRIVATE ${target} GTest::gmock GTest::gtest_main)
+    gtest_discover_tests(test_shared_${name} TEST_PREFIX "shared.${name}." DISCOVERY_MODE PRE_TEST)
+  endif()
+endfunction()
+
 # plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED]
 #                [LICENCE "SPDX expression" LICENCE_REASON "sentence"])
 #

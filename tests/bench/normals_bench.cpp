@@ -16,7 +16,7 @@ void ours(benchmark::State& state) {
   const auto origin = [](std::size_t) { return Eigen::Vector3f(0, 0, 0); };
   for (auto _ : state) {
     TestContext one_thread;
-    estimate_normals(cloud, SearchTree(cloud), {{}, 30}, origin, one_thread);
+    estimate_normals::estimate_normals(cloud, SearchTree(cloud), {{}, 30}, origin, one_thread);
     benchmark::DoNotOptimize(cloud.nx.data());
   }
   per(state, "point", static_cast<double>(cloud.size()));

@@ -18,8 +18,8 @@ struct IndoorStage {
   IndoorScene scene;  ///< settled, with its drift
   Building building;
   IndoorDrive drive;
-  std::vector<Planar> odometry;  ///< one a pose of the drive
-  std::vector<char> lost;        ///< the same
+  std::vector<PlanarPose> odometry;  ///< one a pose of the drive
+  std::vector<char> lost;            ///< the same
   Laser2d laser;
 
   std::vector<double> scan(std::size_t k) const {

@@ -3,7 +3,7 @@
 /// port name. A test of a module includes this, and plumb_module() of the module itself is linked
 /// in.
 ///
-///   StepRun step(*plumb_module());
+///   StepUnderTest step(*plumb_module());
 ///   step.with("matches", matches).at("poses", T_i_j).set("max", 0.5);
 ///   const auto kept = step.run<Matches>("matches", context);
 
@@ -16,9 +16,9 @@ extern "C" const PlumbModule* plumb_module();
 
 namespace plumb {
 
-class StepRun {
+class StepUnderTest {
  public:
-  explicit StepRun(const PlumbModule& module, std::size_t which = 0)
+  explicit StepUnderTest(const PlumbModule& module, std::size_t which = 0)
       : step_(module.steps[which]), inputs_(step_->description().inputs.size()) {
     for (const auto& p : step_->description().parameters)
       if (!p.required) values_[p.name] = p.standard;
@@ -26,18 +26,18 @@ class StepRun {
 
   /// The item's, or the pipeline's, value.
   template <class T>
-  StepRun& with(std::string_view port, T value) {
+  StepUnderTest& with(std::string_view port, T value) {
     input(port).one = any_value(std::move(value));
     return *this;
   }
   template <class T>
-  StepRun& ends(std::string_view port, T i, T j) {
+  StepUnderTest& ends(std::string_view port, T i, T j) {
     input(port).one = any_value(std::move(i));
     inputs_[place(port)].other = any_value(std::move(j));
     return *this;
   }
   template <class T>
-  StepRun& each(std::string_view port, std::vector<T> values, Edges edges = {}) {
+  StepUnderTest& each(std::string_view port, std::vector<T> values, Edges edges = {}) {
     struct Held : Collection {
       std::vector<AnyValue> items;
       Edges graph;
@@ -53,23 +53,23 @@ class StepRun {
   }
   /// Adds one to any number of labelled values.
   template <class T>
-  StepRun& add(std::string_view port, std::string label, T value) {
+  StepUnderTest& add(std::string_view port, std::string label, T value) {
     input(port).several.emplace_back(std::move(label), any_value(std::move(value)));
     return *this;
   }
-  StepRun& at(std::string_view port, const Pose& T_i_j) {
+  StepUnderTest& at(std::string_view port, const Pose& T_i_j) {
     input(port).T_i_j = T_i_j;
     return *this;
   }
-  StepRun& edge(std::string_view port, const Edge& edge) {
+  StepUnderTest& edge(std::string_view port, const Edge& edge) {
     input(port).edge = edge;
     return *this;
   }
-  StepRun& over(std::string_view port) {
+  StepUnderTest& over(std::string_view port) {
     input(port);
     return *this;
   }
-  StepRun& set(const std::string& parameter, ParameterValue value) {
+  StepUnderTest& set(const std::string& parameter, ParameterValue value) {
     const auto* description = step_->description().parameter(parameter);
     EXPECT_NE(description, nullptr) << "no parameter " << parameter;
     if (description) {

@@ -4,7 +4,7 @@
 #include "agreement.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::accept_poses {
 namespace {
 
 std::string rounded(double metres) {
@@ -116,6 +116,6 @@ struct AcceptPoses : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::accept_poses
 
-PLUMB_MODULE(plumb::AcceptPoses)
+PLUMB_MODULE(plumb::accept_poses::AcceptPoses)

@@ -4,7 +4,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 namespace {
 
 constexpr std::size_t none = ~std::size_t{0};
@@ -76,4 +76,4 @@ Chained chained(const Poses& initial, const Edges& edges,
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::apply_chain

@@ -3,8 +3,9 @@
 #include "chain.hpp"
 #include "plumb/data/registration.hpp"
 #include "plumb/plugin/module.hpp"
+#include "shared/selection/median.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 namespace {
 
 struct ApplyChain : WholeStep {
@@ -74,26 +75,24 @@ struct ApplyChain : WholeStep {
  private:
   static Metrics metrics_of(const std::vector<Registration>& registrations) {
     double iterations = 0, mae = 0, overlap = 0;
-    std::vector<float> distances;
+    std::vector<double> distances;
     for (const Registration& r : registrations) {
       iterations += r.iterations;
       mae += static_cast<double>(r.mae);
       overlap += static_cast<double>(r.overlap);
-      distances.push_back(r.mae);
+      distances.push_back(static_cast<double>(r.mae));
     }
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    if (!distances.empty()) std::nth_element(distances.begin(), middle, distances.end());
     const double n = std::max<double>(1, static_cast<double>(registrations.size()));
     return Metrics()
         .add("registrations", static_cast<double>(registrations.size()), "")
         .add("iterations", iterations / n, "")
         .add("mae", mae / n, "m")
-        .add("mae_median", distances.empty() ? 0 : static_cast<double>(*middle), "m")
+        .add("mae_median", selection::median(std::move(distances)), "m")
         .add("overlap", overlap / n, "");
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_chain
 
-PLUMB_MODULE(plumb::ApplyChain)
+PLUMB_MODULE(plumb::apply_chain::ApplyChain)

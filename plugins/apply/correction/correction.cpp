@@ -2,7 +2,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 namespace {
 
 void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
@@ -62,4 +62,4 @@ Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::apply_correction

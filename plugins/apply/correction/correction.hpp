@@ -7,7 +7,7 @@
 #include "plumb/data/segment.hpp"
 #include "plumb/data/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 
 /// The trajectory after each segment moved from `ranges[s].T_world_segment` to
 /// `poses.T_world_segment[s]`.
@@ -21,4 +21,4 @@ namespace plumb {
 Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
                      const Poses& poses, bool blend);
 
-}  // namespace plumb
+}  // namespace plumb::apply_correction

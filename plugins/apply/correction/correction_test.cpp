@@ -5,7 +5,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/range.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 namespace {
 
 Trajectory drive(std::size_t frames) {
@@ -102,4 +102,4 @@ TEST(Correction, RefusesPosesAndRangesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_correction

@@ -5,7 +5,7 @@
 #include "divergence_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 CheckedOdometry check(const Trajectory& odometry, const Drive& of = drive()) {
@@ -215,8 +215,8 @@ TEST(Divergence, IsNamedByWhatItLooksLike) {
 // ---- the step
 // ---------------------------------------------------------------------------------------------------------------
 
-StepRun checking(const std::vector<Frame>& frames, const Trajectory& odometry) {
-  StepRun step(*plumb_module());
+StepUnderTest checking(const std::vector<Frame>& frames, const Trajectory& odometry) {
+  StepUnderTest step(*plumb_module());
   step.each("frames", frames).with("trajectory", odometry);
   return step;
 }
@@ -307,4 +307,4 @@ TEST(CheckOdometry, RefusesATrajectoryOfOtherFrames) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::check_odometry

@@ -3,7 +3,7 @@
 #include "divergence.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 std::string seconds(double stamp) {
@@ -121,6 +121,6 @@ struct CheckOdometry : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::check_odometry
 
-PLUMB_MODULE(plumb::CheckOdometry)
+PLUMB_MODULE(plumb::check_odometry::CheckOdometry)

@@ -6,7 +6,7 @@
 
 #include "plumb/data/graph.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 
 /// Standard deviations of a motion: what it has at rest, and what grows with the path and the turn.
 /// Errors of a step are taken as proportional to the step, not to its root: the errors of lidar
@@ -70,4 +70,4 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
 /// Constraints of a pose graph from these.
 Constraints constraints_from(const std::vector<Motion6>& motions);
 
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry

@@ -7,7 +7,7 @@
 #include "motion_noise.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 namespace {
 
 using testing::ElementsAre;
@@ -170,8 +170,8 @@ Poses middles() {
     poses.T_world_segment.push_back(odometry().T_world_frame[range.first + 1]);
   return poses;
 }
-StepRun wired() {
-  StepRun step(*plumb_module());
+StepUnderTest wired() {
+  StepUnderTest step(*plumb_module());
   step.with("trajectory", odometry()).each("ranges", ranges());
   return step;
 }
@@ -185,7 +185,7 @@ std::string refusal(const Run& run) {
   return "";
 }
 /// Median deviation of x and of yaw that the step used.
-std::pair<double, double> sigmas(StepRun step) {
+std::pair<double, double> sigmas(StepUnderTest step) {
   TestContext context;
   const auto numbers = step.run<Metrics>("metrics", context).numbers;
   return {numbers[0].value, numbers[5].value};
@@ -285,4 +285,4 @@ TEST(ConstrainOdometry, RefusesAScaleWithoutAPositiveNumber) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry

@@ -3,7 +3,7 @@
 #include "motion_noise.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 namespace {
 
 struct ConstrainOdometry : WholeStep {
@@ -96,6 +96,6 @@ struct ConstrainOdometry : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry
 
-PLUMB_MODULE(plumb::ConstrainOdometry)
+PLUMB_MODULE(plumb::constrain_odometry::ConstrainOdometry)

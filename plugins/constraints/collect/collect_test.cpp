@@ -1,10 +1,12 @@
 #include "collect.hpp"
 
-#include "plumb/geometry/planar.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 namespace {
+
+using planar::PlanarPose;
 
 Registration registration(const PlanarPose& motion, bool accepted) {
   Registration r;
@@ -60,7 +62,7 @@ TEST(CollectConstraints, AreNotPlanarWhereAMotionLeavesThePlane) {
 
 TEST(CollectConstraints, CountWhatTheyTakeAndLeave) {
   TestContext context;
-  StepRun(*plumb_module())
+  StepUnderTest(*plumb_module())
       .each("registrations",
             std::vector{registration({1, 0, 0}, true), registration({1, 0, 0}, false)},
             {3, {{0, 1}, {1, 2}}})
@@ -70,4 +72,4 @@ TEST(CollectConstraints, CountWhatTheyTakeAndLeave) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constraints_collect

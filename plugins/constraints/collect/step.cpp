@@ -1,7 +1,7 @@
 #include "collect.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 namespace {
 
 struct CollectConstraints : WholeStep {
@@ -38,6 +38,6 @@ struct CollectConstraints : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constraints_collect
 
-PLUMB_MODULE(plumb::CollectConstraints)
+PLUMB_MODULE(plumb::constraints_collect::CollectConstraints)

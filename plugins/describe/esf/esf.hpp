@@ -7,7 +7,7 @@
 
 #include "plumb/data/cloud.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 
 inline constexpr std::size_t esf_bins = 64;  ///< of each of the ten histograms
 inline constexpr std::size_t esf_size = 640;
@@ -26,4 +26,4 @@ inline constexpr std::size_t esf_size = 640;
 std::optional<std::vector<float>> esf(const Cloud& cloud, std::uint32_t samples,
                                       std::uint64_t seed);
 
-}  // namespace plumb
+}  // namespace plumb::describe_esf

@@ -14,7 +14,7 @@
 #include "pcl_twins.hpp"
 #endif
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 /// Ground, a wall and a ball.
@@ -177,4 +177,4 @@ TEST(Esf, HasTheMeanOfPclWithinTheNoiseOfSampling) {
 #endif
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_esf

@@ -1,7 +1,7 @@
 #include "esf.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 struct DescribeEsf : SegmentStep {
@@ -42,6 +42,6 @@ struct DescribeEsf : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_esf
 
-PLUMB_MODULE(plumb::DescribeEsf)
+PLUMB_MODULE(plumb::describe_esf::DescribeEsf)

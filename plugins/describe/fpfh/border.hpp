@@ -4,7 +4,7 @@
 
 #include "pair_counts.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 /// The largest angle [rad] between two directions, one after the other, in which neighbours lie as
 /// seen from `point` along its normal; 2 pi if there is no neighbour elsewhere than straight along
@@ -12,4 +12,4 @@ namespace plumb {
 /// as PCL's BoundaryEstimation has it. [Tang2024] 2.3.2 drops pairs near edges, after [Xiong2018].
 double largest_gap(const Oriented& point, const Candidates& candidates, float squared_radius);
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -4,7 +4,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 struct DescribeFpfh : SegmentStep {
@@ -69,6 +69,6 @@ struct DescribeFpfh : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh
 
-PLUMB_MODULE(plumb::DescribeFpfh)
+PLUMB_MODULE(plumb::describe_fpfh::DescribeFpfh)

@@ -1,7 +1,7 @@
 #include "neighbours.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 namespace {
 
 struct OverlapEdges : WholeStep {
@@ -64,6 +64,6 @@ struct OverlapEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_overlap
 
-PLUMB_MODULE(plumb::OverlapEdges)
+PLUMB_MODULE(plumb::edges_overlap::OverlapEdges)

@@ -7,7 +7,7 @@
 
 #include "plumb/data/segment.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 
 /// Cubic voxels of edge `size` [m] in world coordinates: voxel (0, 0, 0) begins at `origin` [m], a
 /// whole multiple of `size`.
@@ -48,4 +48,4 @@ Voxels voxels_of(const Cloud& cloud, const Pose& T_world_segment, const Lattice&
 /// clouds share one lattice is ours.
 double overlap(const Voxels& a, const Voxels& b, double least = 0);
 
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "select.hpp"
 
-namespace plumb {
+namespace plumb::edges_select {
 namespace {
 
 struct SelectEdges : WholeStep {
@@ -58,6 +58,6 @@ struct SelectEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_select
 
-PLUMB_MODULE(plumb::SelectEdges)
+PLUMB_MODULE(plumb::edges_select::SelectEdges)

@@ -1,7 +1,7 @@
 #include "normals.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::estimate_normals {
 namespace {
 
 struct EstimateNormals : SegmentStep {
@@ -75,6 +75,6 @@ struct EstimateNormals : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::estimate_normals
 
-PLUMB_MODULE(plumb::EstimateNormals)
+PLUMB_MODULE(plumb::estimate_normals::EstimateNormals)

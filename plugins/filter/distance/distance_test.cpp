@@ -10,7 +10,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::filter_distance {
 namespace {
 
 using testing::ElementsAre;
@@ -75,4 +75,4 @@ TEST(FilterDistance, RefusesBoundsThatLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_distance

@@ -1,7 +1,7 @@
 #include "distance.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::filter_distance {
 namespace {
 
 struct Distance : FrameStep {
@@ -47,6 +47,6 @@ struct Distance : FrameStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_distance
 
-PLUMB_MODULE(plumb::Distance)
+PLUMB_MODULE(plumb::filter_distance::Distance)

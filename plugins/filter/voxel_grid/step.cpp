@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "voxel_grid.hpp"
 
-namespace plumb {
+namespace plumb::filter_voxel_grid {
 namespace {
 
 struct VoxelGrid : SegmentStep {
@@ -38,6 +38,6 @@ struct VoxelGrid : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_voxel_grid
 
-PLUMB_MODULE(plumb::VoxelGrid)
+PLUMB_MODULE(plumb::filter_voxel_grid::VoxelGrid)

@@ -2,7 +2,7 @@
 #include "plumb/data/trajectory.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::gate_distance {
 namespace {
 
 struct GateDistance : WholeStep {
@@ -84,6 +84,6 @@ struct GateDistance : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::gate_distance
 
-PLUMB_MODULE(plumb::GateDistance)
+PLUMB_MODULE(plumb::gate_distance::GateDistance)

@@ -7,7 +7,7 @@
 
 #include "plumb/data/graph.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 
 /// World coordinates [m] of each segment, under poses that may have drifted.
 struct Places {
@@ -86,4 +86,4 @@ Loops find_loops(const Places& places,
                  const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

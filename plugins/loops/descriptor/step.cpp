@@ -3,7 +3,7 @@
 #include "plumb/plugin/module.hpp"
 #include "similarity.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 namespace {
 
 struct LoopEdges : WholeStep {
@@ -73,6 +73,6 @@ struct LoopEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor
 
-PLUMB_MODULE(plumb::LoopEdges)
+PLUMB_MODULE(plumb::loops_descriptor::LoopEdges)

@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "proximity.hpp"
 
-namespace plumb {
+namespace plumb::loops_proximity {
 namespace {
 
 struct ProximityLoops : WholeStep {
@@ -42,6 +42,6 @@ struct ProximityLoops : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_proximity
 
-PLUMB_MODULE(plumb::ProximityLoops)
+PLUMB_MODULE(plumb::loops_proximity::ProximityLoops)

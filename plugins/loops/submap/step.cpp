@@ -2,7 +2,7 @@
 #include "plumb/plugin/module.hpp"
 #include "submap.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 namespace {
 
 struct LoopsSubmap : WholeStep {
@@ -138,6 +138,6 @@ struct LoopsSubmap : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_submap
 
-PLUMB_MODULE(plumb::LoopsSubmap)
+PLUMB_MODULE(plumb::loops_submap::LoopsSubmap)

@@ -9,7 +9,7 @@
 #include "plumb/data/segment.hpp"
 #include "plumb/plugin/context.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 struct LoopOptions {
   std::uint32_t submap_segments = 10;  ///< segments in a submap, the current one the last
@@ -51,4 +51,4 @@ Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)
                  const Poses& poses, const Constraints* known, const LoopOptions& options,
                  Context& context);
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

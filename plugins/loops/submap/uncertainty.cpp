@@ -4,9 +4,8 @@
 #include <queue>
 
 #include "plumb/data/error.hpp"
-#include "plumb/geometry/planar.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 Paths::Paths(const Poses& poses, const Constraints* loops, double turn_length, double loop_length)
     : travelled_(poses.size(), 0), steps_(poses.size()) {
@@ -49,4 +48,4 @@ std::vector<double> Paths::from(std::size_t segment) const {
   return path;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -3,7 +3,7 @@
 #include "occupancy.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 namespace {
 
 struct OccupancyGrid : WholeStep {
@@ -54,8 +54,7 @@ struct OccupancyGrid : WholeStep {
     context.parallel(frames, [&](std::size_t k) {
       scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);
     });
-    Out out{occupancy(scans, params,
-                      [&](std::size_t n, const auto& body) { context.parallel(n, body); })};
+    Out out{occupancy(scans, params, parallel::on(context))};
     const auto seen = [&](auto test) {
       return static_cast<std::uint64_t>(std::ranges::count_if(out.map.log_odds, test));
     };
@@ -66,6 +65,6 @@ struct OccupancyGrid : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid
 
-PLUMB_MODULE(plumb::OccupancyGrid)
+PLUMB_MODULE(plumb::map_occupancy_grid::OccupancyGrid)

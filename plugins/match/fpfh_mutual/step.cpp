@@ -2,7 +2,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 /// Both ends of each pair, and whether either lies at its cloud's border.
@@ -56,6 +56,6 @@ struct MatchFpfhMutual : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual
 
-PLUMB_MODULE(plumb::MatchFpfhMutual)
+PLUMB_MODULE(plumb::match_fpfh_mutual::MatchFpfhMutual)

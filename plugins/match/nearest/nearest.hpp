@@ -7,7 +7,7 @@
 #include "plumb/data/graph.hpp"
 #include "plumb/data/segment.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 
 struct NearestOptions {
   double max_correspondence_distance = 1;  ///< [m] farthest that a pair may be apart
@@ -31,4 +31,4 @@ struct NearestOptions {
 Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::match_nearest

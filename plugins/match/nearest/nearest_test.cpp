@@ -7,7 +7,7 @@
 
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 namespace {
 
 Segment segment_of(Cloud cloud) {
@@ -226,7 +226,7 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
   Cloud with = random_cloud(20, 5, 1);
   give_normals(with, {0, 0, 1});
   const auto refused = [&](bool both) {
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with))
         .at("poses", Pose());
@@ -247,7 +247,7 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
 TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
   const Segment bare = segment_of(random_cloud(20, 5, 1));
   const auto refusal = [&](const char* parameter, ParameterValue value) -> std::string {
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", bare, bare)
         .at("poses", Pose())
@@ -266,4 +266,4 @@ TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_nearest

@@ -2,7 +2,7 @@
 #include "nearest.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 namespace {
 
 enum class Metric { point, plane };
@@ -82,6 +82,6 @@ struct Nearest : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_nearest
 
-PLUMB_MODULE(plumb::Nearest)
+PLUMB_MODULE(plumb::match_nearest::Nearest)

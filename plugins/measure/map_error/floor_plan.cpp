@@ -7,7 +7,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 
 std::vector<Wall> read_plan(const std::filesystem::path& file) {
   const io::FileBytes bytes(file);
@@ -93,4 +93,4 @@ double WallTree::distance_to(const Eigen::Vector2d& p) const {
   return best;
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

@@ -4,7 +4,7 @@
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 namespace {
 
 struct MeasureMapError : WholeStep {
@@ -59,7 +59,7 @@ struct MeasureMapError : WholeStep {
       return out;
     }
     const auto walls = read_plan(*params.plan);
-    PlanarMotion T_plan_map;
+    PlanarPose T_plan_map;
     if (params.truth) {
       if (!in.trajectory)
         throw Error(
@@ -76,9 +76,8 @@ struct MeasureMapError : WholeStep {
       T_plan_map = planar_alignment(pairs);
     }
     const auto threshold = static_cast<float>(std::log(params.occupied / (1 - params.occupied)));
-    const MapError error =
-        map_error(*in.map, walls, T_plan_map, threshold, params.max_wall_distance,
-                  [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    const MapError error = map_error(*in.map, walls, T_plan_map, threshold,
+                                     params.max_wall_distance, parallel::on(context));
     if (error.occupied == 0) {
       out.metrics.notes.push_back("the map has no occupied cell, so it has no error");
       return out;
@@ -95,6 +94,6 @@ struct MeasureMapError : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_map_error
 
-PLUMB_MODULE(plumb::MeasureMapError)
+PLUMB_MODULE(plumb::measure_map_error::MeasureMapError)

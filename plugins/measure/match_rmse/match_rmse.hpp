@@ -7,7 +7,7 @@
 
 #include "plumb/data/segment.hpp"
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 
 /// Pairs of nearest points: indices into i's and j's clouds.
 using IndexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -23,4 +23,4 @@ IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
 /// [Tang2024] eq. 3.
 double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, const Pose& T_j_i);
 
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse

@@ -9,7 +9,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 namespace {
 
 Segment random_segment(std::uint64_t seed, int points) {
@@ -120,4 +120,4 @@ TEST(MatchRmse, SaysHowManyEdgesHaveNoPairs) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse

@@ -5,7 +5,7 @@
 #include "match_rmse.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 namespace {
 
 struct MatchRmse : WholeStep {
@@ -125,6 +125,6 @@ struct MatchRmse : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse
 
-PLUMB_MODULE(plumb::MatchRmse)
+PLUMB_MODULE(plumb::measure_match_rmse::MatchRmse)

@@ -5,7 +5,7 @@
 #include "plumb/data/trajectory_error.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::measure_trajectory {
 namespace {
 
 struct MeasureTrajectory : WholeStep {
@@ -77,6 +77,6 @@ struct MeasureTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_trajectory
 
-PLUMB_MODULE(plumb::MeasureTrajectory)
+PLUMB_MODULE(plumb::measure_trajectory::MeasureTrajectory)

@@ -10,7 +10,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::measure_trajectory {
 namespace {
 
 Trajectory curve(std::size_t frames, double first_stamp = 100) {
@@ -99,4 +99,4 @@ TEST_F(MeasureTrajectoryTest, SaysThatStampsDoNotMeet) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_trajectory

@@ -9,7 +9,7 @@
 #include "plumb/data/values.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 namespace {
 
 Eigen::Vector3d gauss3(std::mt19937& random, double sigma) {
@@ -272,8 +272,8 @@ Registered registered(const std::vector<Loop>& loops, std::uint32_t segments) {
   return all;
 }
 
-StepRun pruning(const Registered& all, const Poses& poses) {
-  StepRun step(*plumb_module());
+StepUnderTest pruning(const Registered& all, const Poses& poses) {
+  StepUnderTest step(*plumb_module());
   step.each("registrations", all.registrations, all.edges).with("poses", poses);
   return step;
 }
@@ -403,4 +403,4 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency

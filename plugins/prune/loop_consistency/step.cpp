@@ -6,7 +6,7 @@
 #include "plumb/data/registration.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 namespace {
 
 const char* reason(LoopVerdict verdict) {
@@ -169,6 +169,6 @@ struct PruneLoopConsistency : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency
 
-PLUMB_MODULE(plumb::PruneLoopConsistency)
+PLUMB_MODULE(plumb::prune_loop_consistency::PruneLoopConsistency)

@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "ransac.hpp"
 
-namespace plumb {
+namespace plumb::prune_ransac {
 namespace {
 
 struct Ransac : EdgeStep {
@@ -55,6 +55,6 @@ struct Ransac : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_ransac
 
-PLUMB_MODULE(plumb::Ransac)
+PLUMB_MODULE(plumb::prune_ransac::Ransac)

@@ -3,7 +3,7 @@
 #include "plumb/plugin/step_testing.hpp"
 #include "refine.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 namespace {
 
 using testing::HasSubstr;
@@ -201,8 +201,8 @@ struct Walk {
       segments[s].range.first = 2 * s, segments[s].range.end = 2 * s + 2;
     }
   }
-  StepRun step() const {
-    StepRun run(*plumb_module());
+  StepUnderTest step() const {
+    StepUnderTest run(*plumb_module());
     run.with("trajectory", trajectory)
         .each("frames", frames)
         .each("segments", segments)
@@ -302,4 +302,4 @@ TEST(RefineFrames, MultipliesTheDistanceOfACorrespondenceByAScale) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::refine_frames

@@ -7,7 +7,7 @@
 
 #include "plumb/data/segment.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 
 struct FrameOptions {
   double max_correspondence_distance = 1;          ///< [m]
@@ -73,4 +73,4 @@ struct FramePose {
 FramePose registered(const Cloud& cloud, const Pose& T_world_frame,
                      const std::vector<Target>& targets, const FrameOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::refine_frames

@@ -3,7 +3,7 @@
 #include "plumb/plugin/module.hpp"
 #include "refine.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 namespace {
 
 struct RefineFrames : WholeStep {
@@ -81,6 +81,6 @@ struct RefineFrames : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::refine_frames
 
-PLUMB_MODULE(plumb::RefineFrames)
+PLUMB_MODULE(plumb::refine_frames::RefineFrames)

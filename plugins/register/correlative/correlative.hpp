@@ -2,9 +2,11 @@
 /// Registers one planar cloud to another by exhaustive search of a window of poses.
 
 #include "plumb/data/cloud.hpp"
-#include "plumb/geometry/correlative_search.hpp"
+#include "shared/planar/correlative_search.hpp"
 
-namespace plumb {
+namespace plumb::register_correlative {
+
+using planar::PlanarPose;
 
 struct CorrelativeOptions {
   double search_window = 0.6;             ///< [m]
@@ -90,4 +92,4 @@ struct CorrelativeResult {
 CorrelativeResult correlate(const Cloud& target, const Cloud& source, const PlanarPose& start,
                             const CorrelativeOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::register_correlative

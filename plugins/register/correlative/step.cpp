@@ -3,7 +3,7 @@
 #include "plumb/data/segment.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::register_correlative {
 namespace {
 
 struct RegisterCorrelative : EdgeStep {
@@ -42,7 +42,7 @@ struct RegisterCorrelative : EdgeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const CorrelativeResult found =
-        correlate(in.targets.i->cloud, in.sources.j->cloud, planar(in.poses.T_i_j), params.search);
+        correlate(in.targets.i->cloud, in.sources.j->cloud, planar::projected(in.poses.T_i_j), params.search);
     Registration out;
     out.T_i_j = in_space(found.T);
     out.iterations = found.retried ? 2 : 1;
@@ -62,6 +62,6 @@ struct RegisterCorrelative : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_correlative
 
-PLUMB_MODULE(plumb::RegisterCorrelative)
+PLUMB_MODULE(plumb::register_correlative::RegisterCorrelative)

@@ -1,10 +1,16 @@
 #include "plumb/data/registration.hpp"
 #include "plumb/data/segment.hpp"
-#include "plumb/geometry/planar_icp.hpp"
 #include "plumb/plugin/module.hpp"
+#include "shared/planar/icp.hpp"
 
-namespace plumb {
+namespace plumb::register_icp {
 namespace {
+
+using planar::IcpOptions;
+using planar::IcpResult;
+using planar::Metric;
+using planar::PlanarPose;
+using planar::Stop;
 
 struct RegisterParams {
   IcpOptions icp;
@@ -54,13 +60,14 @@ struct Register : EdgeStep {
           "'planar: true' "
           "before, or use 'metric: point'");
     const PlanarPose start =
-        planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
+        planar::projected(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
     IcpOptions options = params.icp;
     options.stop = stop;
     Registration out;
     out.T_i_j = in_space(start);
     if (!target.cloud.empty() && !source.cloud.empty()) {
-      const IcpResult found = align(target.cloud, target.tree(), source.cloud, start, options);
+      const IcpResult found =
+          planar::align(target.cloud, target.tree(), source.cloud, start, options);
       out.T_i_j = in_space(found.T);
       out.iterations = found.iterations, out.pairs = found.pairs;
       out.mae = static_cast<float>(found.mae), out.overlap = static_cast<float>(found.overlap);
@@ -97,6 +104,6 @@ struct RegisterIaIcp : Register<Stop::ratio> {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_icp
 
-PLUMB_MODULE(plumb::RegisterIcp, plumb::RegisterIaIcp)
+PLUMB_MODULE(plumb::register_icp::RegisterIcp, plumb::register_icp::RegisterIaIcp)

@@ -8,7 +8,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::segment_by_count {
 namespace {
 
 using testing::ElementsAre;
@@ -93,4 +93,4 @@ TEST(SegmentByCount, RefusesMoreFramesThanAPointCanName) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_count

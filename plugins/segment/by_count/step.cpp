@@ -2,7 +2,7 @@
 #include "plumb/data/range.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::segment_by_count {
 namespace {
 
 struct ByCount : WholeStep {
@@ -38,6 +38,6 @@ struct ByCount : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_count
 
-PLUMB_MODULE(plumb::ByCount)
+PLUMB_MODULE(plumb::segment_by_count::ByCount)

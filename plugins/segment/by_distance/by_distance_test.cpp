@@ -7,7 +7,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 namespace {
 
 using testing::ElementsAre;
@@ -146,4 +146,4 @@ TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance

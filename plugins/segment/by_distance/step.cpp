@@ -5,7 +5,7 @@
 #include "plumb/data/range.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 namespace {
 
 struct ByDistance : WholeStep {
@@ -78,6 +78,6 @@ struct ByDistance : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance
 
-PLUMB_MODULE(plumb::ByDistance)
+PLUMB_MODULE(plumb::segment_by_distance::ByDistance)

@@ -1,7 +1,7 @@
 #include "merge.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::segment_merge {
 namespace {
 
 struct Merge : SegmentStep {
@@ -50,6 +50,6 @@ struct Merge : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_merge
 
-PLUMB_MODULE(plumb::Merge)
+PLUMB_MODULE(plumb::segment_merge::Merge)

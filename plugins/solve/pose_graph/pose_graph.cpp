@@ -16,7 +16,7 @@
 #include "pose_manifold.hpp"
 #include "verdict.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 /// A constraint's or prior's term, and the robust weight it has in this round.
@@ -31,7 +31,7 @@ struct ConstraintTerm {
 class Graph {
  public:
   Graph(const Poses& start, std::span<const MatchedEdge> edges, const Constraints* constraints,
-        const GraphOptions& options, const ParallelLoop& parallel)
+        const GraphOptions& options, const parallel::Loop& parallel)
       : start_(start), options_(options), parallel_(parallel), parts_(start.size()) {
     for (const auto& pose : start.T_world_segment) blocks_.push_back(block_of(pose));
     check(edges, constraints);
@@ -385,7 +385,7 @@ class Graph {
 
   const Poses& start_;
   const GraphOptions& options_;
-  const ParallelLoop& parallel_;
+  const parallel::Loop& parallel_;
   Parts parts_;
   bool planar_ = false;
   std::vector<PoseBlock> blocks_;
@@ -413,9 +413,9 @@ std::string GraphOptions::check() const {
 
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
                              const Constraints* constraints, const GraphOptions& options,
-                             const ParallelLoop& parallel) {
+                             const parallel::Loop& parallel) {
   if (start.size() == 0) throw Error("there are no poses to solve for");
   return Graph(start, edges, constraints, options, parallel).solve();
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -8,7 +8,7 @@
 
 #include "plumb/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 using PoseBlock = std::array<double, 7>;
 
@@ -64,4 +64,4 @@ class PoseManifold final : public ceres::Manifold {
   bool planar_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

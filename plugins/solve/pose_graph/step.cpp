@@ -1,7 +1,7 @@
 #include "plumb/plugin/module.hpp"
 #include "pose_graph.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 const std::vector<ChoiceOf<Loss>> losses = {
@@ -178,6 +178,6 @@ struct SolvePoseGraph : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph
 
-PLUMB_MODULE(plumb::SolvePoseGraph)
+PLUMB_MODULE(plumb::solve_pose_graph::SolvePoseGraph)

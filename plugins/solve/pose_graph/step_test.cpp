@@ -6,7 +6,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 struct Held : Collection {
@@ -141,4 +141,4 @@ TEST(SolvePoseGraph, RefusesParametersThatDoNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

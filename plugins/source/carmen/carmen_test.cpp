@@ -11,7 +11,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 using testing::ElementsAre;
@@ -346,4 +346,4 @@ TEST_F(CarmenLogs, AreRefusedWhenThereIsNothingInThem) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_carmen

@@ -9,7 +9,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 enum class Outcome { more, end_of_stream, damaged };
@@ -113,4 +113,4 @@ std::string unpacked(const std::filesystem::path& file) {
   return std::string(view);
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_carmen

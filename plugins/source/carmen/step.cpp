@@ -8,7 +8,7 @@
 #include "plumb/plugin/module.hpp"
 #include "scan_cloud.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 enum class Odometry { use, ignore };
@@ -64,9 +64,6 @@ struct Carmen : WholeStep {
   }
 
   Out run(const In&, const Params& params, Context& context) const {
-    const ParallelLoop parallel = [&](std::size_t n, const auto& body) {
-      context.parallel(n, body);
-    };
     if (std::filesystem::is_directory(params.path)) {
       const auto inside = params.path / "log.clf";
       io::refuse(params.path, "is a folder: give the log in it" +
@@ -74,7 +71,8 @@ struct Carmen : WholeStep {
                                                                    : std::string(", a .clf file")));
     }
     const std::string text = unpacked(params.path);
-    auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));
+    auto log =
+        std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel::on(context)));
     const auto& scans = log->scans;
     if (scans.size() < 2)
       io::refuse(params.path,
@@ -140,7 +138,7 @@ struct Carmen : WholeStep {
       back += k > 0 && scans[k].stamp < scans[k - 1].stamp;
       unknown += !fan_of(scans[k], params.field_of_view).known;
       const auto &a = scans[k].robot, &b = scans[0].robot;
-      moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->theta != b->theta));
+      moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->yaw != b->yaw));
     }
     count(context, "stamps that step back kept in the file's order", back);
     const std::string file = params.path.string();
@@ -162,6 +160,6 @@ struct Carmen : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_carmen
 
-PLUMB_MODULE(plumb::Carmen)
+PLUMB_MODULE(plumb::source_carmen::Carmen)

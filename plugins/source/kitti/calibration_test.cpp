@@ -12,7 +12,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_kitti {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST_F(KittiFolder, IsRefusedWithACalibrationThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_kitti

@@ -7,7 +7,7 @@
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::source_kitti {
 namespace {
 
 struct Kitti : WholeStep {
@@ -62,6 +62,6 @@ struct Kitti : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_kitti
 
-PLUMB_MODULE(plumb::Kitti)
+PLUMB_MODULE(plumb::source_kitti::Kitti)

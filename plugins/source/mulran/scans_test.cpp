@@ -11,7 +11,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_mulran {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ TEST_F(MulRanFolder, IsRefusedWhenMissingOrEmpty) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_mulran

@@ -4,7 +4,7 @@
 #include "plumb/plugin/module.hpp"
 #include "scans.hpp"
 
-namespace plumb {
+namespace plumb::source_mulran {
 namespace {
 
 enum class Body { sensor, vehicle };
@@ -79,6 +79,6 @@ struct MulRan : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_mulran
 
-PLUMB_MODULE(plumb::MulRan)
+PLUMB_MODULE(plumb::source_mulran::MulRan)

@@ -13,7 +13,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_sequence {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_F(Folder, IsRefusedWhenAListedFrameIsMissing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_sequence

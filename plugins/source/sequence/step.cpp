@@ -7,7 +7,7 @@
 #include "plumb/plugin/module.hpp"
 #include "sequence_folder.hpp"
 
-namespace plumb {
+namespace plumb::source_sequence {
 namespace {
 
 enum class Coordinates { sensor, world };
@@ -75,6 +75,6 @@ struct Sequence : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_sequence
 
-PLUMB_MODULE(plumb::Sequence)
+PLUMB_MODULE(plumb::source_sequence::Sequence)

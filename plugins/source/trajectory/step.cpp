@@ -1,7 +1,7 @@
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::source_trajectory {
 namespace {
 
 struct SourceTrajectory : WholeStep {
@@ -29,6 +29,6 @@ struct SourceTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_trajectory
 
-PLUMB_MODULE(plumb::SourceTrajectory)
+PLUMB_MODULE(plumb::source_trajectory::SourceTrajectory)

@@ -1,10 +1,10 @@
 #include <optional>
 
-#include "plumb/geometry/spots.hpp"
 #include "plumb/plugin/module.hpp"
+#include "shared/thinning/spots.hpp"
 #include "window.hpp"
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 namespace {
 
 struct SlidingWindow : WholeStep {
@@ -75,7 +75,7 @@ struct SlidingWindow : WholeStep {
                         const Windows& windows, std::size_t k,
                         const std::optional<double>& voxel_size) {
     Cloud all;
-    std::optional<Spots> spots;
+    std::optional<thinning::Spots> spots;
     if (voxel_size) {
       spots.emplace(*voxel_size);
     } else {
@@ -101,6 +101,6 @@ struct SlidingWindow : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window
 
-PLUMB_MODULE(plumb::SlidingWindow)
+PLUMB_MODULE(plumb::stitch_sliding_window::SlidingWindow)

@@ -4,7 +4,7 @@
 
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 namespace {
 
 using testing::ElementsAre;
@@ -125,4 +125,4 @@ TEST(SlidingWindow, RefusesPosesOfOtherSegments) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window

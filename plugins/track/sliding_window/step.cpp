@@ -2,8 +2,11 @@
 #include "plumb/plugin/module.hpp"
 #include "track.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 namespace {
+
+using planar::Metric;
+using planar::Stop;
 
 struct TrackSlidingWindow : WholeStep {
   struct In {
@@ -144,6 +147,6 @@ struct TrackSlidingWindow : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window
 
-PLUMB_MODULE(plumb::TrackSlidingWindow)
+PLUMB_MODULE(plumb::track_sliding_window::TrackSlidingWindow)

@@ -5,7 +5,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 namespace {
 
 class Tracker {
@@ -15,7 +15,7 @@ class Tracker {
         initial_(initial),
         options_(options),
         submap_(options),
-        lines_(options.icp.metric == Metric::line),
+        lines_(options.icp.metric == planar::Metric::line),
         poses_(scans.size()) {
     result_.poses = initial;
     const auto moved = [&](const Pose& pose) {
@@ -29,7 +29,7 @@ class Tracker {
   Tracked run(const Edges& chain) {
     if (chain.size() == 0) return std::move(result_);
     const std::uint32_t first = chain.list.front().i;
-    place(first, planar(initial_.T_world_segment[first]));
+    place(first, planar::projected(initial_.T_world_segment[first]));
     submap_.add(*scans_[first], poses_[first], lines_);
     for (const Edge& edge : chain.list) {
       const bool fits = follow(edge);
@@ -45,7 +45,7 @@ class Tracker {
   bool follow(const Edge& edge) {
     const bool known = has_odometry_;
     const PlanarPose start =
-        poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
+        poses_[edge.i] * (known ? planar::projected(initial_.relative(edge.i, edge.j)) : motion_);
     IcpOptions icp = options_.icp;
     if (!known) icp.start_sigma.reset();
     const Cloud& scan = *scans_[edge.j];
@@ -92,11 +92,11 @@ class Tracker {
   bool far(const PlanarPose& pose) const {
     const PlanarPose from = submap_.newest();
     return std::hypot(pose.x - from.x, pose.y - from.y) > options_.min_translation ||
-           std::abs(wrapped(pose.yaw - from.yaw)) > options_.min_rotation;
+           std::abs(planar::wrapped(pose.yaw - from.yaw)) > options_.min_rotation;
   }
 
   void place(std::uint32_t k, PlanarPose pose) {
-    pose.yaw = wrapped(pose.yaw);
+    pose.yaw = planar::wrapped(pose.yaw);
     poses_[k] = pose;
     result_.poses.T_world_segment[k] = in_space(pose);
   }
@@ -141,4 +141,4 @@ Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const E
   return Tracker(scans, initial, options).run(chain);
 }
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

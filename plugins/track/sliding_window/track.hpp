@@ -7,7 +7,7 @@
 #include "plumb/data/graph.hpp"
 #include "submap.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 
 struct TrackOptions : SubmapOptions {
   IcpOptions icp = {.stop = Stop::ratio, .metric = Metric::line};
@@ -37,4 +37,4 @@ struct Tracked {
 Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
               const TrackOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

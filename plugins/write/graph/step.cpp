@@ -1,7 +1,7 @@
 #include "graph_text.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_graph {
 namespace {
 
 struct WriteGraph : WholeStep {
@@ -69,6 +69,6 @@ struct WriteGraph : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_graph
 
-PLUMB_MODULE(plumb::WriteGraph)
+PLUMB_MODULE(plumb::write_graph::WriteGraph)

@@ -1,7 +1,7 @@
 #include "metrics.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_metrics {
 namespace {
 
 struct WriteMetrics : WholeStep {
@@ -37,6 +37,6 @@ struct WriteMetrics : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_metrics
 
-PLUMB_MODULE(plumb::WriteMetrics)
+PLUMB_MODULE(plumb::write_metrics::WriteMetrics)

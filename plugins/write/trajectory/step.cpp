@@ -1,7 +1,7 @@
 #include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_trajectory {
 namespace {
 
 enum class Format { tum, kitti };
@@ -42,6 +42,6 @@ struct WriteTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_trajectory
 
-PLUMB_MODULE(plumb::WriteTrajectory)
+PLUMB_MODULE(plumb::write_trajectory::WriteTrajectory)

@@ -7,7 +7,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::write_trajectory {
 namespace {
 
 Document written(const ParameterValues& values, std::vector<double> stamps = {1.5, 2.25}) {
@@ -57,4 +57,4 @@ TEST(WriteTrajectory, RefusesANameWithAFolder) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_trajectory

@@ -4,7 +4,7 @@
 #include "plumb/plugin/module.hpp"
 #include "table.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 namespace {
 
 struct WriteUncertainty : WholeStep {
@@ -66,6 +66,6 @@ struct WriteUncertainty : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty
 
-PLUMB_MODULE(plumb::WriteUncertainty)
+PLUMB_MODULE(plumb::write_uncertainty::WriteUncertainty)

@@ -6,7 +6,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 
 std::vector<PoseUncertainty> uncertainty_of(const Constraints& constraints, std::size_t segments) {
   std::vector<PoseUncertainty> of(segments);
@@ -66,4 +66,4 @@ std::string uncertainty_table(const Trajectory& trajectory,
   return text;
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty

@@ -7,7 +7,7 @@
 #include "plumb/plugin/step_testing.hpp"
 #include "table.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 namespace {
 
 using testing::HasSubstr;
@@ -212,11 +212,11 @@ TEST(UncertaintyTable, KeepsLargeStampsAndUtmCoordinates) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 /// Three segments of three frames; the first fixed.
-StepRun wired() {
+StepUnderTest wired() {
   Constraints uncertainty;
   uncertainty.absolute = {known(1, Pose(), diagonal({0.04, 0.03, 0.02}, {1e-6, 1e-6, 1e-6})),
                           known(2, Pose(), diagonal({0.2, 0.1, 0.06}, {1e-6, 1e-6, 1e-6}))};
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("uncertainty", uncertainty)
       .each("ranges", ranges_of({3, 3, 3}))
       .with("trajectory", along_x(9));
@@ -261,7 +261,7 @@ TEST(WriteUncertainty, WarnsWhereTheSolverGaveNone) {
 }
 
 TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
-  const auto refusal = [](StepRun step) -> std::string {
+  const auto refusal = [](StepUnderTest step) -> std::string {
     TestContext context;
     try {
       step.run<Document>("document", context);
@@ -285,4 +285,4 @@ TEST(WriteUncertainty, RefusesANameWithAFolder) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty

@@ -31,7 +31,8 @@ def test_each_folder_can_be_left_out_of_the_configuration(folder):
     if not shutil.which("ninja"):
         skip("ninja is not on this machine")
     root = copy_of_source(folder)
-    steps = sorted(f.parent.relative_to(root / "plugins") for f in (root / "plugins").glob("*/*/CMakeLists.txt"))
+    folders = sorted(f.parent.relative_to(root / "plugins") for f in (root / "plugins").glob("*/*/CMakeLists.txt"))
+    steps = [folder for folder in folders if folder.parts[0] != "shared"]  # what those use is no step
     assert len(steps) >= 30
     configure(root, folder / "build")
     for step in steps:

@@ -1,11 +1,11 @@
-#include "plumb/slam/geometry/correlative_search.hpp"
+#include "shared/planar/correlative_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace plumb {
+namespace plumb::planar {
 namespace {
 
 struct Points {
@@ -37,18 +37,6 @@ Points seen_from(const Points& world, const PlanarPose& T_world_sensor) {
     seen.y.push_back(static_cast<float>(back.y + s * world.x[k] + c * world.y[k]));
   }
   return seen;
-}
-
-TEST(PlanarPose, UndoesItselfAndAgreesWithPosesInSpace) {
-  const PlanarPose a{1, -2, 0.7}, b{0.3, 0.4, -2.9};
-  const PlanarPose none = a * a.inverse();
-  EXPECT_NEAR(none.x, 0, 1e-12);
-  EXPECT_NEAR(none.y, 0, 1e-12);
-  EXPECT_NEAR(wrapped(none.yaw), 0, 1e-12);
-  const PlanarPose through = planar(in_space(a) * in_space(b)), direct = a * b;
-  EXPECT_NEAR(through.x, direct.x, 1e-12);
-  EXPECT_NEAR(through.y, direct.y, 1e-12);
-  EXPECT_NEAR(wrapped(through.yaw - direct.yaw), 0, 1e-12);
 }
 
 TEST(LikelihoodField, FallsAsAGaussianWithTheDistance) {
@@ -140,4 +128,4 @@ TEST(CorrelativeSearch, HasNothingToSayWithoutPoints) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::planar

@@ -1,11 +1,11 @@
-#include "plumb/slam/geometry/likelihood_field.hpp"
+#include "shared/planar/likelihood_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-namespace plumb {
+namespace plumb::planar {
 
 LikelihoodField::LikelihoodField(const std::vector<float>& x, const std::vector<float>& y,
                                  double resolution, double sigma, double margin, int levels)
@@ -87,4 +87,4 @@ void LikelihoodField::pool(int level) {
   }
 }
 
-}  // namespace plumb
+}  // namespace plumb::planar

@@ -8,7 +8,7 @@
 
 #include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::thinning {
 
 /// Takes memory for the occupied cells, not for the points. The same points in the same order give
 /// the same means, whether they came as one cloud or as many.
@@ -40,4 +40,4 @@ class VoxelMeans {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::thinning

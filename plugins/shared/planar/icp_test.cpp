@@ -1,10 +1,10 @@
-#include "plumb/slam/geometry/planar_icp.hpp"
+#include "shared/planar/icp.hpp"
 
 #include <gtest/gtest.h>
 
-#include "plumb/slam/geometry/planar_testing.hpp"
+#include "shared/planar/room_testing.hpp"
 
-namespace plumb {
+namespace plumb::planar {
 namespace {
 
 struct Points {
@@ -113,4 +113,4 @@ TEST(PlanarIcp, OnlyJudgesTheStartWithoutIterations) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::planar

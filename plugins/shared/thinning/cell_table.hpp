@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace plumb {
+namespace plumb::thinning {
 
 /// Cells, plain structs with a `key`, numbered 0, 1, 2 ... in the order in which their keys are
 /// first asked for.
@@ -112,4 +112,4 @@ class CellTable {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace plumb
+}  // namespace plumb::thinning

@@ -1,9 +1,9 @@
-#include "plumb/slam/geometry/line_normal.hpp"
+#include "shared/planar/line_normal.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::planar {
 namespace {
 
 constexpr double most_across = 0.4;  // of a line's points: spread across it to spread along it
@@ -27,4 +27,4 @@ Eigen::Vector3f line_normal(const Eigen::Vector3f* points, std::size_t count) {
   return {static_cast<float>(-std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
 }
 
-}  // namespace plumb
+}  // namespace plumb::planar

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/slam/geometry/likelihood_field.hpp"
-#include "plumb/slam/geometry/planar.hpp"
+#include "shared/planar/likelihood_field.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::planar {
 
 /// A prior on the pose: a score is lowered by up to `weight`, by half of it at `translation_sigma`
 /// [m] or at `rotation_sigma` [rad] from `pose`. Where the points do not constrain the pose, as
@@ -66,4 +66,4 @@ PlanarPose between_cells(const LikelihoodField& field, const std::vector<float>&
 /// The step of yaw [rad] that moves nine of ten of the points by at most a cell.
 double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, double resolution);
 
-}  // namespace plumb
+}  // namespace plumb::planar

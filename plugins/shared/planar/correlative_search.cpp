@@ -1,9 +1,9 @@
-#include "plumb/slam/geometry/correlative_search.hpp"
+#include "shared/planar/correlative_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::planar {
 namespace {
 
 /// All poses with one yaw and a square of 2^level x 2^level cells of translations.
@@ -159,4 +159,4 @@ double yaw_step_for(const std::vector<float>& x, const std::vector<float>& y, do
   return std::clamp(resolution / std::sqrt(std::max(*nine, 1e-6f)), 1e-3, 0.1);
 }
 
-}  // namespace plumb
+}  // namespace plumb::planar

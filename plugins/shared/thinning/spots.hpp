@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace plumb {
+namespace plumb::thinning {
 
 /// A point within `edge` [m] of the first point of a spot belongs to it, else it is the first of a
 /// new spot; what comes out is the mean of each, in the order of the first ones. Unlike cells of a
@@ -96,4 +96,4 @@ class Spots {
   std::vector<Spot> spots_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::thinning

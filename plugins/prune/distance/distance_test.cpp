@@ -1,13 +1,9 @@
-#include "closer.hpp"
-
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::prune_distance {
 namespace {
-
-using testing::ElementsAre;
 
 /// Pairs along x that are 0, 1, 2, ... m apart under the identity.
 Matches pairs_apart(int count) {
@@ -21,17 +17,20 @@ Matches pairs_apart(int count) {
   return m;
 }
 
-TEST(DistanceGate, KeepsPairsUpToAndWithTheLimit) {
-  EXPECT_THAT(closer(pairs_apart(6), Pose(), 3), ElementsAre(0, 1, 2, 3));
-}
-
-TEST(DistanceGate, MeasuresUnderThePresentPoses) {
+TEST(DistanceGate, KeepsPairsUpToAndWithTheLimitUnderThePresentPoses) {
   const Pose two_ahead(Eigen::Quaterniond::Identity(), {2, 0, 0});
-  EXPECT_THAT(closer(pairs_apart(6), two_ahead, 1), ElementsAre(1, 2, 3));
+  TestContext context;
+  const auto kept = StepUnderTest(*plumb_module())
+                        .with("matches", pairs_apart(6))
+                        .at("poses", two_ahead)
+                        .set("max_correspondence_distance", 1.0)
+                        .run<Matches>("matches", context);
+  ASSERT_EQ(kept.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(kept.p[k].x(), static_cast<float>(k + 1));
 }
 
 TEST(DistanceGate, OpensForLoopsByTheirCentroidDistance) {
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("matches", pairs_apart(10))
       .at("poses", Pose())
       .set("max_correspondence_distance", 1.0)
@@ -45,7 +44,7 @@ TEST(DistanceGate, OpensForLoopsByTheirCentroidDistance) {
 }
 
 TEST(DistanceGate, RefusesALoopMarginWithoutEdges) {
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("matches", pairs_apart(3)).at("poses", Pose()).set("loop_margin", 2.0);
   TestContext context;
   EXPECT_THROW(step.run<Matches>("matches", context), Error);
@@ -53,7 +52,7 @@ TEST(DistanceGate, RefusesALoopMarginWithoutEdges) {
 
 TEST(DistanceGate, LetsNoPairsThrough) {
   TestContext context;
-  const auto kept = StepRun(*plumb_module())
+  const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", Matches())
                         .at("poses", Pose())
                         .run<Matches>("matches", context);
@@ -62,7 +61,7 @@ TEST(DistanceGate, LetsNoPairsThrough) {
 
 TEST(DistanceGate, RemembersHowManyWereFound) {
   TestContext context;
-  const auto kept = StepRun(*plumb_module())
+  const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", pairs_apart(9))
                         .at("poses", Pose())
                         .run<Matches>("matches", context);
@@ -71,4 +70,4 @@ TEST(DistanceGate, RemembersHowManyWereFound) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_distance

@@ -1,11 +1,11 @@
-#include "plumb/slam/geometry/spots.hpp"
+#include "shared/thinning/spots.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace plumb {
+namespace plumb::thinning {
 namespace {
 
 struct Points {
@@ -83,4 +83,4 @@ TEST(Spots, ThinANoisyWallWithoutTurningIt) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::thinning

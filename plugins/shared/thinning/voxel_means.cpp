@@ -1,15 +1,15 @@
-#include "plumb/slam/voxel_means.hpp"
+#include "shared/thinning/voxel_means.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "plumb/slam/cell_table.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/short_number.hpp"
+#include "shared/thinning/cell_table.hpp"
 
-namespace plumb {
+namespace plumb::thinning {
 namespace {
 
 constexpr double most_cells = 1 << 21;
@@ -188,4 +188,4 @@ VoxelMeans::Result VoxelMeans::take() {
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::thinning

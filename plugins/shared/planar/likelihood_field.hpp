@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace plumb {
+namespace plumb::planar {
 
 /// Values 0 to 255 on a grid: 255 exp(-d^2 / (2 sigma^2)), d the distance of the cell's middle to
 /// the nearest point. Level n holds, for each cell, the largest value in the square of 2^n x 2^n
@@ -47,4 +47,4 @@ class LikelihoodField {
       grids_;  ///< level n is 2^n - 1 cells wider on the low sides
 };
 
-}  // namespace plumb
+}  // namespace plumb::planar

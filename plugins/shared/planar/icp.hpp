@@ -6,14 +6,14 @@
 #include <optional>
 #include <span>
 
-#include "plumb/slam/geometry/planar.hpp"
-#include "plumb/slam/geometry/search_tree.hpp"
+#include "plumb/geometry/search_tree.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::planar {
 
 enum class Stop {
   change,  ///< the pose moved by less than `change` ([m] + [rad]): the usual ICP
-  ratio    ///< MAE_n / MAE_(n-1) >= ratio: IA-ICP; MAE is the mean distance of the pairs, eq. (12)
+  ratio    ///< MAE_n / MAE_(n-1) >= ratio: IA-ICP, eq. (12); MAE is the mean distance of the pairs
 };
 enum class Metric {
   point,  ///< eq. (3): the distance of the pairs
@@ -40,9 +40,9 @@ struct IcpOptions {
   double max_correspondence_distance = 0.3;  ///< [m] between the points of a pair
   std::uint32_t max_iterations = 50;         ///< at most
   double noise = 0.03;                       ///< [m] standard deviation of a pair's residual
-  std::optional<double> start_sigma = {};    ///< [m] standard deviation of the start's place; its
-                                             ///< heading's is a third of that in rad. Metric::line
-                                             ///< only
+  /// [m] standard deviation of the start's place; its heading's is a third of that in rad.
+  /// Metric::line only
+  std::optional<double> start_sigma = {};
 
   /// As parameters of a step.
   template <class Declare>
@@ -52,7 +52,7 @@ struct IcpOptions {
                 "when the mean distance of the pairs stops decreasing: IA-ICP, eq. (12)"},
                {"change", Stop::change, "when the pose converges: standard ICP"}})
         .doc("when a registration ends")
-        .source("[Zhang2023] eq. (12)");
+        .source("[Zhang2023] 2, eq. (12) for ratio");
     is.choice(
           "metric", &IcpOptions::metric,
           {{"point", Metric::point, "point-to-point distance"},
@@ -96,7 +96,7 @@ struct IcpResult {
   double mae = 0;           ///< [m] mean distance of those pairs
   double overlap = 0;       ///< share of the source's points that have a pair
   Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see planar_icp.cpp
+      Eigen::Matrix3d::Zero();  ///< of x, y, yaw in the source's coordinates; see icp.cpp
 };
 
 /// Registers `source` to `target`, with the initial guess `start`. Pairs are each source point and
@@ -105,4 +105,4 @@ struct IcpResult {
 IcpResult align(const PlanarPoints& target, const SearchTree& tree, const PlanarPoints& source,
                 const PlanarPose& start, const IcpOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::planar

@@ -1,10 +1,10 @@
-#include "plumb/slam/geometry/planar_icp.hpp"
+#include "shared/planar/icp.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
-namespace plumb {
+namespace plumb::planar {
 namespace {
 
 /// A transformed source point, b, and its correspondence in the target, a, with the target's
@@ -169,4 +169,4 @@ IcpResult align(const PlanarPoints& target, const SearchTree& tree, const Planar
   return Icp(target, tree, source, start, options).run();
 }
 
-}  // namespace plumb
+}  // namespace plumb::planar
