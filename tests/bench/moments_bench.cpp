@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 #include "plumb/plugin/context.hpp"
 #include "scene.hpp"
 

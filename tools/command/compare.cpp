@@ -10,12 +10,12 @@
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
-#include "plumb/data/io/trajectory_text.hpp"
+#include "plumb/slam/io/trajectory_text.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
-#include "plumb/report/comparison.hpp"
+#include "plumb/slam/report/comparison.hpp"
 #include "store_option.hpp"
 
 namespace plumb::command {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "plumb/data/io/plain_text.hpp"
-#include "plumb/report/weakness.hpp"
+#include "plumb/slam/report/weakness.hpp"
 
 namespace plumb::command {
 

@@ -19,7 +19,7 @@
 #include "command/command.hpp"
 #include "interrupt.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/data/io/trajectory_text.hpp"
+#include "plumb/slam/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
 #include "simulate/names.hpp"
 #include "simulate/route.hpp"

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
-#include "plumb/report/stages.hpp"
-#include "plumb/report/weakness.hpp"
+#include "plumb/slam/report/stages.hpp"
+#include "plumb/slam/report/weakness.hpp"
 #include "plumb/slam/report/made_metrics.hpp"
 
 namespace plumb::command {

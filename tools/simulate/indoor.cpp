@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <mutex>
 
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/engine/run/parallel.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "simulate/building.hpp"
 #include "simulate/indoor_drive.hpp"
 #include "simulate/indoor_scene.hpp"

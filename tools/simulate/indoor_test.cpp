@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/testing.hpp"
 
 namespace plumb::simulate {

@@ -4,7 +4,7 @@
 /// in.
 ///
 ///   StepUnderTest step(*plumb_module());
-///   step.with("matches", matches).at("poses", T_i_j).set("max", 0.5);
+///   step.with("matches", matches).part("poses", T_i_j).set("max", 0.5);
 ///   const auto kept = step.run<Matches>("matches", context);
 
 #include <gtest/gtest.h>
@@ -37,18 +37,14 @@ class StepUnderTest {
     return *this;
   }
   template <class T>
-  StepUnderTest& each(std::string_view port, std::vector<T> values, Edges edges = {}) {
-    struct Held : Collection {
-      std::vector<AnyValue> items;
-      Edges graph;
-      std::size_t size() const override { return items.size(); }
-      AnyValue open(std::size_t k) const override { return items[k]; }
-      const Edges* edges() const override { return &graph; }
-    };
-    auto held = std::make_shared<Held>();
-    held->graph = std::move(edges);
-    for (auto& value : values) held->items.push_back(any_value(std::move(value)));
-    input(port).each = held;
+  StepUnderTest& each(std::string_view port, std::vector<T> values) {
+    input(port).each = held(std::move(values), {});
+    return *this;
+  }
+  /// Values that belong to the items of a list.
+  template <class T, class List>
+  StepUnderTest& each(std::string_view port, std::vector<T> values, List list) {
+    input(port).each = held(std::move(values), any_value(std::move(list)));
     return *this;
   }
   /// Adds one to any number of labelled values.
@@ -57,12 +53,10 @@ class StepUnderTest {
     input(port).several.emplace_back(std::move(label), any_value(std::move(value)));
     return *this;
   }
-  StepUnderTest& at(std::string_view port, const Pose& T_i_j) {
-    input(port).T_i_j = T_i_j;
-    return *this;
-  }
-  StepUnderTest& edge(std::string_view port, const Edge& edge) {
-    input(port).edge = edge;
+  /// What the item sees of a value of the pipeline: T_i_j, an edge.
+  template <class T>
+  StepUnderTest& part(std::string_view port, T value) {
+    input(port).part = seen_part(std::move(value));
     return *this;
   }
   StepUnderTest& over(std::string_view port) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::accept_poses {
 

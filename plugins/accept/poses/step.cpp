@@ -3,6 +3,7 @@
 
 #include "agreement.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::accept_poses {
 namespace {

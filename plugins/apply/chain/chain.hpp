@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/registration.hpp"
 
 namespace plumb::apply_chain {
 

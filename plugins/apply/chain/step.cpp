@@ -1,8 +1,9 @@
 #include <algorithm>
 
 #include "chain.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/selection/median.hpp"
 
 namespace plumb::apply_chain {
@@ -49,7 +50,7 @@ struct ApplyChain : WholeStep {
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
-    Chained chain = chained(*in.poses, in.registrations.edges(), registrations, params);
+    Chained chain = chained(*in.poses, edges_of(in.registrations), registrations, params);
 
     Out out;
     out.metrics = metrics_of(registrations);

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::apply_correction {
 

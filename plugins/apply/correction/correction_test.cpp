@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "plumb/data/error.hpp"
-#include "plumb/data/range.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::apply_correction {
 namespace {

@@ -1,5 +1,6 @@
 #include "correction.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::apply_correction {
 namespace {

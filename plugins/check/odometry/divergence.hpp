@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "plumb/plugin/context.hpp"
 #include "scan_pair.hpp"
 

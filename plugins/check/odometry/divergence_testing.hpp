@@ -5,7 +5,7 @@
 #include <random>
 
 #include "divergence.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
 namespace plumb::check_odometry {
 

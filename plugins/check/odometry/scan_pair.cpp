@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "shared/selection/evenly.hpp"
 #include "shared/thinning/voxel_means.hpp"
 

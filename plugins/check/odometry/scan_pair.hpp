@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::check_odometry {
 

@@ -2,6 +2,7 @@
 
 #include "divergence.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::check_odometry {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
 #include "shared/selection/median.hpp"
 
 namespace plumb::constrain_odometry {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::constrain_odometry {
 

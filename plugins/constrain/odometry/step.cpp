@@ -2,6 +2,7 @@
 
 #include "motion_noise.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::constrain_odometry {
 namespace {

@@ -1,5 +1,6 @@
 #include "collect.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::constraints_collect {
 namespace {
@@ -29,7 +30,7 @@ struct CollectConstraints : WholeStep {
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
-    Out out{collected(in.registrations.edges(), registrations, params.inflate)};
+    Out out{collected(edges_of(in.registrations), registrations, params.inflate)};
     context.count("registrations accepted", out.constraints.relative.size());
     context.count("registrations not accepted and left out",
                   registrations.size() - out.constraints.relative.size());

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
 namespace plumb::describe_esf {
 

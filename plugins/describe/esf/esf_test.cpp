@@ -7,7 +7,7 @@
 #include <numeric>
 #include <thread>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
 #include "solid_grid.hpp"
 #ifdef PLUMB_HAS_PCL

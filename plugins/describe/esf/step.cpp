@@ -1,5 +1,6 @@
 #include "esf.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::describe_esf {
 namespace {

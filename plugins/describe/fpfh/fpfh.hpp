@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb::describe_fpfh {

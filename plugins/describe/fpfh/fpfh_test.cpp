@@ -8,7 +8,7 @@
 #include "border.hpp"
 #include "key_points.hpp"
 #include "pair_counts.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "scene_for_test.hpp"
 #include "shared/parallel/loop_testing.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb::describe_fpfh {

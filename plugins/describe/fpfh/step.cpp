@@ -3,6 +3,7 @@
 #include "key_points.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::describe_fpfh {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
 namespace plumb::describe_fpfh {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 #include "plumb/plugin/context.hpp"
 #include "voxels.hpp"
 

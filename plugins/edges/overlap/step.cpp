@@ -1,5 +1,6 @@
 #include "neighbours.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_overlap {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::edges_overlap {
 

@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "select.hpp"
 
 namespace plumb::edges_select {

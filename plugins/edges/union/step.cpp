@@ -1,5 +1,6 @@
 #include "join.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_union {
 namespace {

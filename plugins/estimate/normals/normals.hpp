@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "plumb/plugin/context.hpp"
 #include "shared/planar/line_normal.hpp"
 

@@ -1,5 +1,6 @@
 #include "normals.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::estimate_normals {
 namespace {

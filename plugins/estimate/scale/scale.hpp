@@ -1,7 +1,7 @@
 #pragma once
 /// How large the surroundings are in which a sensor moves, as far as its trajectory tells.
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::estimate_scale {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Keeps the points in a shell round the sensor.
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
 namespace plumb::filter_distance {
 

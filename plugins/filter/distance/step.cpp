@@ -1,5 +1,6 @@
 #include "distance.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::filter_distance {
 namespace {

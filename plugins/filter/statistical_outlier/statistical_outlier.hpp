@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "shared/parallel/loop.hpp"
 
 namespace plumb::filter_statistical_outlier {

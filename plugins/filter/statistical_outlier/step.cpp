@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "statistical_outlier.hpp"
 
 namespace plumb::filter_statistical_outlier {

@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "voxel_grid.hpp"
 
 namespace plumb::filter_voxel_grid {

@@ -1,7 +1,7 @@
 #pragma once
 /// Thins a cloud to one point per occupied cubic cell.
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 #include "shared/thinning/voxel_means.hpp"
 
 namespace plumb::filter_voxel_grid {

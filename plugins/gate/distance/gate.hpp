@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::gate_distance {
 

@@ -1,6 +1,7 @@
 #include "gate.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::gate_distance {
 namespace {

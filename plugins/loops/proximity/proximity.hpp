@@ -1,7 +1,7 @@
 #pragma once
 /// Edges between segments that came near each other on different visits.
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::loops_proximity {
 

@@ -1,5 +1,6 @@
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "submap.hpp"
 
 namespace plumb::loops_submap {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <memory>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb::loops_submap {

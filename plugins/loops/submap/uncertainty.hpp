@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::loops_submap {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 #include "shared/parallel/loop.hpp"
 
 namespace plumb::map_occupancy_grid {

@@ -2,6 +2,7 @@
 
 #include "occupancy.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::map_occupancy_grid {
 namespace {

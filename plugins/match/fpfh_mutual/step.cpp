@@ -1,6 +1,7 @@
 #include "mutual.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::match_fpfh_mutual {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::match_nearest {
 

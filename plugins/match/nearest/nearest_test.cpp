@@ -229,7 +229,7 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
     StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with))
-        .at("poses", Pose());
+        .part("poses", Pose());
     step.set("metric", std::string("plane")).set("both_ways", both);
     TestContext context;
     try {
@@ -250,7 +250,7 @@ TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
     StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", bare, bare)
-        .at("poses", Pose())
+        .part("poses", Pose())
         .set(parameter, std::move(value));
     TestContext context;
     try {

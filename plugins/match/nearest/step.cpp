@@ -1,6 +1,7 @@
 
 #include "nearest.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::match_nearest {
 namespace {

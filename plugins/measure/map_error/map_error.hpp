@@ -2,8 +2,8 @@
 /// How far the walls of a map are from the true ones.
 
 #include "floor_plan.hpp"
-#include "plumb/data/trajectory_error.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/trajectory_error.hpp"
+#include "plumb/slam/values.hpp"
 #include "shared/parallel/loop.hpp"
 #include "shared/planar/planar_pose.hpp"
 

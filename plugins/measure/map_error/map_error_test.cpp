@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "plumb/data/io/file_testing.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "shared/parallel/loop_testing.hpp"
 

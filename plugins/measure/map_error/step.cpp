@@ -1,8 +1,9 @@
 #include <cmath>
 
 #include "map_error.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::measure_map_error {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::measure_match_rmse {
 

@@ -4,6 +4,7 @@
 
 #include "match_rmse.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::measure_match_rmse {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::measure_relations {
 

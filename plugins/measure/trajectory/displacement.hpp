@@ -1,7 +1,7 @@
 #pragma once
 /// How far a trajectory goes astray along the world's axes.
 
-#include "plumb/data/trajectory_error.hpp"
+#include "plumb/slam/trajectory_error.hpp"
 
 namespace plumb::measure_trajectory {
 

@@ -1,9 +1,10 @@
 #include <filesystem>
 
 #include "displacement.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/data/trajectory_error.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/trajectory_error.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::measure_trajectory {
 namespace {

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

@@ -22,7 +22,7 @@ TEST(DistanceGate, KeepsPairsUpToAndWithTheLimitUnderThePresentPoses) {
   TestContext context;
   const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", pairs_apart(6))
-                        .at("poses", two_ahead)
+                        .part("poses", two_ahead)
                         .set("max_correspondence_distance", 1.0)
                         .run<Matches>("matches", context);
   ASSERT_EQ(kept.size(), 3u);
@@ -32,20 +32,20 @@ TEST(DistanceGate, KeepsPairsUpToAndWithTheLimitUnderThePresentPoses) {
 TEST(DistanceGate, OpensForLoopsByTheirCentroidDistance) {
   StepUnderTest step(*plumb_module());
   step.with("matches", pairs_apart(10))
-      .at("poses", Pose())
+      .part("poses", Pose())
       .set("max_correspondence_distance", 1.0)
       .set("loop_margin", 2.0);
   TestContext context;
-  step.edge("edges", {0, 5, EdgeKind::loop, 0.5f, 4.0f});
+  step.part("edges", {0, 5, EdgeKind::loop, 0.5f, 4.0f});
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 7u);
   EXPECT_EQ(context.counts["pairs dropped"], 3u);
-  step.edge("edges", {0, 1, EdgeKind::sequential, 1.0f, 4.0f});
+  step.part("edges", {0, 1, EdgeKind::sequential, 1.0f, 4.0f});
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 2u);
 }
 
 TEST(DistanceGate, RefusesALoopMarginWithoutEdges) {
   StepUnderTest step(*plumb_module());
-  step.with("matches", pairs_apart(3)).at("poses", Pose()).set("loop_margin", 2.0);
+  step.with("matches", pairs_apart(3)).part("poses", Pose()).set("loop_margin", 2.0);
   TestContext context;
   EXPECT_THROW(step.run<Matches>("matches", context), Error);
 }
@@ -54,7 +54,7 @@ TEST(DistanceGate, LetsNoPairsThrough) {
   TestContext context;
   const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", Matches())
-                        .at("poses", Pose())
+                        .part("poses", Pose())
                         .run<Matches>("matches", context);
   EXPECT_EQ(kept.size(), 0u);
 }
@@ -63,7 +63,7 @@ TEST(DistanceGate, RemembersHowManyWereFound) {
   TestContext context;
   const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", pairs_apart(9))
-                        .at("poses", Pose())
+                        .part("poses", Pose())
                         .run<Matches>("matches", context);
   EXPECT_EQ(kept.size(), 4u);
   EXPECT_EQ(kept.found, 9u);

@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/point_pairs/rigid_fit.hpp"
 
 namespace plumb::prune_distance {

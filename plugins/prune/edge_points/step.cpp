@@ -1,5 +1,6 @@
 #include "inner.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_edge_points {
 namespace {

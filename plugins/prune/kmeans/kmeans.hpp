@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb::prune_kmeans {

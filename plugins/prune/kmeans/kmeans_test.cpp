@@ -52,7 +52,7 @@ const Pose drift(exp_rotation({0, 0, 0.017}), {1.0, -0.6, 0.2});
 Matches run(const Matches& matches, TestContext& context, const std::string& keep = "largest") {
   return StepUnderTest(*plumb_module())
       .with("matches", matches)
-      .at("poses", Pose())
+      .part("poses", Pose())
       .set("keep", keep)
       .run<Matches>("matches", context);
 }
@@ -154,7 +154,7 @@ TEST(KMeans, WithMotionsTellsWallsApartThatDisplacementsDoNot) {
   TestContext context;
   const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", m)
-                        .at("poses", Pose())
+                        .part("poses", Pose())
                         .set("vector", std::string("motion"))
                         .set("pairs_per_cluster", std::int64_t(20))
                         .run<Matches>("matches", context);

@@ -3,6 +3,7 @@
 #include "kmeans.hpp"
 #include "motion_vectors.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_kmeans {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <random>
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/values.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
 namespace plumb::prune_loop_consistency {

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "loop_consistency.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_loop_consistency {
 namespace {
@@ -96,7 +97,7 @@ struct PruneLoopConsistency : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const auto& edges = in.registrations.edges().list;
+    const auto& edges = edges_of(in.registrations).list;
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 #include "plumb/plugin/context.hpp"
 
 namespace plumb::prune_ransac {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::refine_frames {
 

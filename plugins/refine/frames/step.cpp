@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
 namespace plumb::refine_frames {

@@ -1,7 +1,7 @@
 #pragma once
 /// Registers one planar cloud to another by exhaustive search of a window of poses.
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "shared/planar/correlative_search.hpp"
 
 namespace plumb::register_correlative {

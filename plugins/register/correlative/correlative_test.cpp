@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "shared/planar/room_testing.hpp"
 
@@ -91,7 +91,7 @@ TEST(CorrelativeStep, AcceptsWhatFitsAndSaysSo) {
   step.over("edges")
       .ends("targets", i, Segment())
       .ends("sources", Segment(), j)
-      .at("poses", Pose());
+      .part("poses", Pose());
   const auto found = step.run<Registration>("registration", context);
   EXPECT_TRUE(found.accepted);
   EXPECT_GT(found.overlap, 0.7);

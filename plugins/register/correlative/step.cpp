@@ -1,7 +1,8 @@
 #include "correlative.hpp"
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::register_correlative {
 namespace {

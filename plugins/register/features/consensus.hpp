@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::register_features {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 #include "shared/selection/evenly.hpp"
 
 namespace plumb::register_features {

@@ -1,8 +1,8 @@
 #pragma once
 /// A motion between two segments made exact by their clouds, and judged by them.
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::register_features {
 

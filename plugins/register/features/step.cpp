@@ -1,5 +1,6 @@
 #include "consensus.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
 namespace plumb::register_features {

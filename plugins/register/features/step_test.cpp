@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/values.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "yard_testing.hpp"
 

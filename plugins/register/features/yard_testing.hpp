@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::register_features {
 

@@ -1,6 +1,7 @@
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/icp.hpp"
 
 namespace plumb::register_icp {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "shared/planar/room_testing.hpp"
 
@@ -30,7 +30,7 @@ TEST(RegisterStep, RegistersTheSourceOfJToTheTargetOfI) {
     step.over("edges")
         .ends("targets", i, Segment())
         .ends("sources", Segment(), j)
-        .at("poses", Pose());
+        .part("poses", Pose());
     const auto found = step.run<Registration>("registration", context);
     EXPECT_TRUE(found.accepted);
     EXPECT_LT(off(planar::projected(found.T_i_j), b), 0.03);
@@ -46,7 +46,7 @@ TEST(RegisterStep, SaysWhatALineNeeds) {
   step.over("edges")
       .ends("targets", i, i)
       .ends("sources", i, i)
-      .at("poses", Pose())
+      .part("poses", Pose())
       .set("metric", std::string("line"));
   EXPECT_THROW(step.run<Registration>("registration", context), Error);
 }

@@ -1,6 +1,7 @@
 #include "by_count.hpp"
-#include "plumb/data/range.hpp"
+#include "plumb/slam/range.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_by_count {
 namespace {

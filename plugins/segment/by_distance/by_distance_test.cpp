@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

@@ -2,8 +2,9 @@
 #include <optional>
 
 #include "by_distance.hpp"
-#include "plumb/data/range.hpp"
+#include "plumb/slam/range.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_by_distance {
 namespace {

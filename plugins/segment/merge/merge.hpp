@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::segment_merge {
 

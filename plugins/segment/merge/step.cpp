@@ -1,5 +1,6 @@
 #include "merge.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_merge {
 namespace {

@@ -1,4 +1,4 @@
-#include "plumb/data/range.hpp"
+#include "plumb/slam/range.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
 namespace plumb::segment_poses {

@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_poses {
 namespace {

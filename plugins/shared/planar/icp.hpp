@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "shared/planar/planar_pose.hpp"
 
 namespace plumb::planar {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::point_pairs {
 

@@ -8,7 +8,7 @@
 
 #include "costs.hpp"
 #include "loss.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 #include "shared/parallel/loop.hpp"
 
 namespace plumb::solve_pose_graph {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::solve_pose_graph {
 

@@ -1,4 +1,5 @@
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "pose_graph.hpp"
 
 namespace plumb::solve_pose_graph {
@@ -67,7 +68,7 @@ struct SolvePoseGraph : WholeStep {
       held.resize(in.matches.size());
       context.parallel(held.size(), [&](std::size_t k) { held[k] = in.matches.open(k); });
       for (std::size_t k = 0; k < held.size(); ++k)
-        edges.push_back({in.matches.edges().list[k], &*held[k]});
+        edges.push_back({edges_of(in.matches).list[k], &*held[k]});
     }
     const Constraints constraints = joined(in.constraints);
     auto result =

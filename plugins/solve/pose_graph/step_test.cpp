@@ -2,6 +2,7 @@
 
 #include "graph_testing.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

@@ -7,6 +7,7 @@
 
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

@@ -6,6 +6,7 @@
 #include "decompress.hpp"
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "scan_cloud.hpp"
 
 namespace plumb::source_carmen {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::source_g2o {
 

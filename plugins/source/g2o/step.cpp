@@ -1,5 +1,6 @@
 #include "g2o_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::source_g2o {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::source_kitti {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
 namespace plumb::source_mulran {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "plumb/data/io/frame_files.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::source_mulran {
 

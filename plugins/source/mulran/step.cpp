@@ -1,7 +1,8 @@
-#include "plumb/data/io/bin_file.hpp"
+#include "plumb/slam/io/bin_file.hpp"
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "scans.hpp"
 
 namespace plumb::source_mulran {

@@ -1,8 +1,8 @@
 #pragma once
 /// A frame that was stored in world coordinates, as the sensor saw it.
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::source_sequence {
 

@@ -1,5 +1,5 @@
 #include "plumb/data/io/file_testing.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
 namespace plumb::source_trajectory {

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/thinning/spots.hpp"
 #include "window.hpp"
 

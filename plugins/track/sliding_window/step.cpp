@@ -1,5 +1,6 @@
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "track.hpp"
 
 namespace plumb::track_sliding_window {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "shared/planar/correlative_search.hpp"
 #include "shared/planar/icp.hpp"
 

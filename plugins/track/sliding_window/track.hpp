@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 #include "submap.hpp"
 
 namespace plumb::track_sliding_window {

@@ -1,6 +1,6 @@
 #include "track.hpp"
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "shared/planar/room_testing.hpp"
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 
 namespace plumb::write_graph {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::write_graph {
 

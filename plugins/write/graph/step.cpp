@@ -1,5 +1,7 @@
 #include "graph_text.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::write_graph {
 namespace {
@@ -49,7 +51,7 @@ struct WriteGraph : WholeStep {
                   " vertices but there are " + std::to_string(in.poses->size()) +
                   " poses; wire poses of the same graph");
     if (in.matches) {
-      const auto& edges = in.matches.edges().list;
+      const auto& edges = edges_of(in.matches).list;
       std::vector<std::optional<RelativePose>> found(edges.size());
       for (const auto& e : edges)
         if (e.i >= in.poses->size() || e.j >= in.poses->size())

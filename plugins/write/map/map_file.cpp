@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 
 namespace plumb::write_map {
 

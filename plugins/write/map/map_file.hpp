@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::write_map {
 

@@ -8,8 +8,10 @@
 #include <map>
 
 #include "map_file.hpp"
-#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/data/document.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "shared/parallel/loop_testing.hpp"
 #include "voxel_map.hpp"

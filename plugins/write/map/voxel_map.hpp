@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "plumb/data/file_bytes.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "shared/parallel/loop.hpp"
 #include "tile.hpp"
 

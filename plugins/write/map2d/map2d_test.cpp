@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "map_image.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
 
 namespace plumb::write_map2d {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
 namespace plumb::write_map2d {
 

@@ -1,5 +1,7 @@
 #include "map_image.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::write_map2d {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
 namespace plumb::write_metrics {
 

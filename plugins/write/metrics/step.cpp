@@ -1,5 +1,7 @@
 #include "metrics.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::write_metrics {
 namespace {

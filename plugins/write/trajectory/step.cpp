@@ -1,5 +1,7 @@
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/data/document.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::write_trajectory {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <sstream>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 #include "table.hpp"
 
 namespace plumb::write_uncertainty {

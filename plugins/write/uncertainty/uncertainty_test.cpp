@@ -4,6 +4,7 @@
 #include <random>
 #include <sstream>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "table.hpp"
 

@@ -1,7 +1,7 @@
 #include "../finite.hpp"
 #include "../fuzz.hpp"
 #include "g2o_file.hpp"
-#include "plumb/data/fault.hpp"
+#include "plumb/slam/fault.hpp"
 
 using namespace plumb;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb {
 namespace {
