@@ -14,8 +14,8 @@
 namespace plumb::command {
 namespace {
 
-const char* word_of(Access access) {
-  switch (access) {
+std::string word_of(const InputDescription& input) {
+  switch (input.access) {
     case Access::item:
       return "";
     case Access::ends:
@@ -24,30 +24,25 @@ const char* word_of(Access access) {
       return "all, one at a time";
     case Access::several:
       return "any number, labelled";
-    case Access::relative:
-      return "only T_i_j of the edge";
-    case Access::over_edges:
-      return "says which edges there are";
-    case Access::this_edge:
-      return "only the edge itself";
+    case Access::part:
+      return input.sees;
   }
   return "";
 }
 
 std::string type_text(const Type& type) {
-  return std::string(type.name) +
-         (type.grain == Grain::whole ? "" : std::string(", one per ") + name_of(type.grain));
+  return type.name + (type.kind ? ", one per " + type.kind->name : "");
 }
 
 void print_step(const StepDescription& step, const Licence& licence) {
-  std::cout << step.name << "  version " << step.version << ", a " << name_of(step.kind) << "\n  "
+  std::cout << step.name << "  version " << step.version << ", a " << step.base() << "\n  "
             << step.summary << "\n";
   if (!step.source.empty()) std::cout << "  Source: " << step.source << "\n";
   std::cout << "  Licence of its module: " << licence.text() << "\n";
   if (!licence.reason.empty()) std::cout << "      " << licence.reason << "\n";
   std::cout << "\nInputs\n";
   for (const auto& port : step.inputs) {
-    const std::string how = word_of(port.access);
+    const std::string how = word_of(port);
     std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type)
               << (how.empty() ? "" : " (" + how + ")") << (port.optional ? ", may be left out" : "")
               << "\n"
@@ -73,7 +68,7 @@ void print_step(const StepDescription& step, const Licence& licence) {
 
 void print_steps(const Registry& steps) {
   for (const StepDescription* step : steps.all())
-    std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind)
+    std::cout << std::left << std::setw(28) << step->name << std::setw(13) << step->base()
               << step->summary << "\n";
 }
 

@@ -36,10 +36,10 @@ TEST(DistanceGate, OpensForLoopsByTheirCentroidDistance) {
       .set("max_correspondence_distance", 1.0)
       .set("loop_margin", 2.0);
   TestContext context;
-  step.part("edges", {0, 5, EdgeKind::loop, 0.5f, 4.0f});
+  step.part("edges", Edge{0, 5, EdgeKind::loop, 0.5f, 4.0f});
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 7u);
   EXPECT_EQ(context.counts["pairs dropped"], 3u);
-  step.part("edges", {0, 1, EdgeKind::sequential, 1.0f, 4.0f});
+  step.part("edges", Edge{0, 1, EdgeKind::sequential, 1.0f, 4.0f});
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 2u);
 }
 
