@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/report/stages.hpp"
 #include "plumb/report/weakness.hpp"
 
@@ -78,7 +79,8 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   print_numbers(out, plan, result);
   out << "\n";
   for (const LoopEnd& loop : result.loops)
-    out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
+    out << loop.path << ": " << counted(loop.passes, "passes") << ", ended because " << loop.why
+        << "\n";
   for (const StepCount& count : result.counts) out << "counted: " << count.text() << "\n";
   print_weak(out, result, true);
   if (times) print_times(out, result);

@@ -60,7 +60,7 @@ struct ApplyChain : WholeStep {
           " registrations are not accepted: the initial motion stands there, with little weight");
     }
     if (chain.interpolated)
-      context.count("segments without a registration, put between their neighbours",
+      context.count("segments without a registration, put between the neighbours",
                     chain.interpolated);
     if (chain.starts)
       context.count("places where the chain starts anew, after the initial motion", chain.starts);

@@ -91,7 +91,7 @@ struct ConstrainOdometry : WholeStep {
                       sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
     }
     out.metrics.add("outliers", static_cast<double>(noise.outliers.size()), "");
-    context.count("motions of the odometry that contradict the registrations",
+    context.count("motions of the odometry contradicted by the registrations",
                   noise.outliers.size());
     return out;
   }

@@ -67,8 +67,8 @@ struct GateDistance : WholeStep {
     const auto count = [&](const char* what, std::size_t n) {
       if (n) context.count(what, n);
     };
-    count("scans dropped because they jump", gated.far);
-    count("scans dropped because they have too few points", gated.empty);
+    count("scans dropped for a jump", gated.far);
+    count("scans dropped for too few points", gated.empty);
     count("windows restarted", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)

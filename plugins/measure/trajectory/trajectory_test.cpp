@@ -95,7 +95,9 @@ TEST_F(MeasureTrajectoryTest, SaysThatThereIsNoTruth) {
 TEST_F(MeasureTrajectoryTest, SaysThatStampsDoNotMeet) {
   const auto metrics = measured({{"odd", curve(50, 5000)}});
   EXPECT_TRUE(metrics.numbers.empty());
-  EXPECT_THAT(context_.warnings, testing::ElementsAre(testing::HasSubstr("only 0 poses of 'odd'")));
+  EXPECT_THAT(
+      context_.warnings,
+      testing::ElementsAre(testing::HasSubstr("poses of 'odd' with a stamp of the truth: only 0")));
 }
 
 }  // namespace

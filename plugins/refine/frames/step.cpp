@@ -104,8 +104,7 @@ struct RefineFrames : WholeStep {
     });
     std::uint64_t stayed = 0;
     for (const auto n : alone) stayed += n;
-    context.count("frames that see too little of the segments round them, left where they were",
-                  stayed);
+    context.count("frames left in place for seeing too little of the segments around", stayed);
     return out;
   }
 
