@@ -10,10 +10,11 @@
 
 #include "command.hpp"
 #include "plumb/data/amount.hpp"
-#include "plumb/data/error.hpp"
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/store/index.hpp"
 #include "plumb/store/upkeep.hpp"
 #include "store_option.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -30,7 +31,7 @@ std::string day_and_time(std::int64_t ms) {
   return text;
 }
 
-std::string results(std::size_t n) { return std::to_string(n) + (n == 1 ? " result" : " results"); }
+std::string results(std::size_t n) { return counted(n, "results"); }
 
 /// The store that is meant; none, which is said, when there is none yet: looking for one does not
 /// make it.
@@ -38,10 +39,11 @@ std::unique_ptr<Store> existing(const Options& options) {
   options.store.require_one_meaning();
   const auto folder = options.store.folder();
   if (folder.empty())
-    throw Error(options.store.none()
-                    ? "--cache-dir none: there is nothing to look after; name a folder"
-                    : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
-                      "--cache-dir DIR which cache is meant");
+    throw UsageError(options.store.none()
+                         ? options.store.title() +
+                               ": there is nothing to look after; name a folder by --cache-dir DIR"
+                         : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
+                           "--cache-dir DIR which cache is meant");
   if (std::filesystem::exists(folder)) return options.store.open(folder);
   std::cout << folder.string() << ": nothing is kept yet\n";
   return nullptr;
@@ -98,10 +100,12 @@ void verify_store(const Options& options) {
 
 void prune_store(const Options& options) {
   PruneLimits limits;
-  if (!options.older.empty()) limits.older = age_of_text("--older", options.older);
-  if (!options.size.empty()) limits.bytes = bytes_of_text("--size", options.size);
+  if (!options.older.empty())
+    limits.older = usage([&] { return age_of_text("--older", options.older); });
+  if (!options.size.empty())
+    limits.bytes = usage([&] { return bytes_of_text("--size", options.size); });
   if (!limits.older && !limits.bytes)
-    throw Error(
+    throw UsageError(
         "cache prune: removes nothing without a limit; give --older 30d, --size 10GiB or both");
   const auto store = existing(options);
   if (!store) return;

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "pipeline_options.hpp"
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/print/graph.hpp"
 #include "plumb/pipeline/print/table.hpp"
@@ -28,7 +29,8 @@ void add_check(CLI::App& app) {
     untrusted->before_running(plan, steps, {});
     preflight(plan, steps);
     std::cout << passes_table(plan);
-    std::cout << options->file.string() << ": good, " << plan.steps.size() << " steps\n";
+    std::cout << options->file.string() << ": good, " << counted(plan.steps.size(), "steps")
+              << "\n";
   });
 }
 

@@ -10,13 +10,16 @@
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
-#include "plumb/slam/io/trajectory_text.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
+#include "plumb/slam/io/trajectory_text.hpp"
 #include "plumb/slam/report/comparison.hpp"
+#include "side_file.hpp"
 #include "store_option.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -109,14 +112,16 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline,
   if (!fs::exists(input))
     throw Error("--input " + input.string() +
                 ": there is no such file or folder; give a log, or the folder of a sequence");
-  if (!fs::is_directory(input)) return {"input=" + input.string()};
+  const auto set = [](const std::string& name, const fs::path& file) {
+    return name + "=" + pipeline::dollars_doubled(file.string());
+  };
+  if (!fs::is_directory(input)) return {set("input", input)};
   const auto log = input / "log.clf";
-  std::vector<std::string> sets{"input=" + (fs::exists(log) ? log : input).string()};
+  std::vector<std::string> sets{set("input", fs::exists(log) ? log : input)};
   for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"},
                                    {"plan", "plan.txt"},
                                    {"estimate", variant + ".tum"}})
-    if (declares(name) && fs::exists(input / file))
-      sets.push_back(name + ("=" + (input / file).string()));
+    if (declares(name) && fs::exists(input / file)) sets.push_back(set(name, input / file));
   return sets;
 }
 
@@ -153,7 +158,7 @@ void require_different_inputs(const Options& options) {
                     ": is given twice, which would make the confidence look better than it is; "
                     "leave one out");
   if (is_set(options, "input"))
-    throw Error("--set input=...: --input sets it; leave one of them out");
+    throw UsageError("--set input=...: --input sets it; leave one of them out");
 }
 
 /// The runs of a variant on all inputs, in their order.
@@ -213,12 +218,18 @@ void compare(const Options& options) {
   const ExitGuard while_loading;
   for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
   remove_staging_when_interrupted();
+  const auto place = [&](std::size_t v, std::size_t k) {
+    return options.output / variants[v].name / input_names[k];
+  };
+  const auto for_each_place = [&](const auto& act) {
+    for (std::size_t v = 0; v < variants.size() && !options.output.empty(); ++v)
+      for (std::size_t k = 0; k < input_names.size(); ++k) act(v, k);
+  };
+  for_each_place([&](std::size_t v, std::size_t k) { require_apart(options.store, place(v, k)); });
   const std::unique_ptr<Store> store = options.store.open();
-  if (!options.output.empty())
-    for (std::size_t v = 0; v < variants.size(); ++v)
-      for (std::size_t k = 0; k < input_names.size(); ++k)
-        runs[v][k].folder =
-            std::make_unique<OutputFolder>(options.output / variants[v].name / input_names[k]);
+  for_each_place([&](std::size_t v, std::size_t k) {
+    runs[v][k].folder = std::make_unique<OutputFolder>(place(v, k));
+  });
 
   const ExitGuard while_running;
   bool settled = true;
@@ -280,8 +291,9 @@ void add_compare(CLI::App& app) {
   command
       ->add_option("--set", options->sets,
                    "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
-                   "presets; may be given again")
-      ->allow_extra_args(false);
+                   "presets; a '$' in it is written '$$'; may be given again")
+      ->allow_extra_args(false)
+      ->check(fault_of_set);
   command
       ->add_option("--metric", options->figures.metrics,
                    "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "

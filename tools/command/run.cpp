@@ -11,6 +11,7 @@
 #include "plumb/data/amount.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/observe/event_file.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/output_folder.hpp"
@@ -19,6 +20,7 @@
 #include "store_option.hpp"
 #include "summary.hpp"
 #include "untrusted.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -89,16 +91,16 @@ void say_of_store(const Store& store, const RunResult& result, bool quiet) {
   if (quiet) return;
   std::size_t made = 0, reused = 0;
   for (const StepTime& time : result.times) made += time.items, reused += time.remembered;
-  std::cerr << "cache: " << reused << " results reused, " << made << " made\n";
+  std::cerr << "cache: " << counted(reused, "results reused") << ", " << made << " made\n";
 }
 
 constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
 
 std::uint64_t memory_of_text(const std::string& text) {
   if (text.empty()) return 0;
-  const std::uint64_t bytes = bytes_of_text("--memory", text);
+  const std::uint64_t bytes = usage([&] { return bytes_of_text("--memory", text); });
   if (bytes < least_memory)
-    throw Error("--memory " + text + ": is too little to run in; give 256MiB or more");
+    throw UsageError("--memory " + text + ": is too little to run in; give 256MiB or more");
   return bytes;
 }
 
@@ -108,7 +110,8 @@ void require_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
       if (value.empty())
-        throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
+        throw UsageError(option->get_name() +
+                         ": its value is empty; give one, or leave the option out");
 }
 
 /// What leaves memory, and what workers make, goes through the cache.
@@ -120,8 +123,9 @@ void require_store(const Options& options, const Store* store) {
                       : options.explain              ? "--explain"
                                                      : nullptr;
   if (needs)
-    throw Error(std::string("a cache is needed for ") + needs +
-                ", but there is none; give --cache-dir DIR");
+    throw UsageError(std::string("a cache is needed for ") + needs +
+                     (options.store.no_cache ? ", and --no-cache is given; leave one of them out"
+                                             : ", but there is none; give --cache-dir DIR"));
 }
 
 std::vector<SideFile> side_files_of(const Options& options) {
@@ -143,10 +147,11 @@ void report(const Options& options, const Plan& plan, const RunResult& result, c
 
 void run(Options& options) {
   options.store.require_one_meaning();
-  options.executor.require_one_meaning();
+  const std::uint64_t memory = memory_of_text(options.memory);
+  options.executor.require_one_meaning(options.threads, memory);
+  if (options.store.none()) require_store(options, nullptr);
   options.untrusted.before_reading(options.pipeline);
   if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
-  const std::uint64_t memory = memory_of_text(options.memory);
   const Registry steps = options.untrusted.steps();
   auto [plan, record] =
       options.locked.empty()
@@ -158,7 +163,7 @@ void run(Options& options) {
   preflight(plan, steps);
   const std::vector<SideFile> side_files = side_files_of(options);
   require_elsewhere(side_files, options.output);
-  require_apart(options.store.folder(), options.output);
+  require_apart(options.store, options.output);
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());

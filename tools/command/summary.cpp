@@ -4,9 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
+#include "plumb/engine/observe/counted.hpp"
+#include "plumb/slam/report/made_metrics.hpp"
 #include "plumb/slam/report/stages.hpp"
 #include "plumb/slam/report/weakness.hpp"
-#include "plumb/slam/report/made_metrics.hpp"
 
 namespace plumb::command {
 namespace {
@@ -79,7 +80,8 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   print_numbers(out, plan, result);
   out << "\n";
   for (const LoopEnd& loop : result.loops)
-    out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
+    out << loop.path << ": " << counted(loop.passes, "passes") << ", ended because " << loop.why
+        << "\n";
   for (const StepCount& count : result.counts) out << "counted: " << count.text() << "\n";
   print_weak(out, result, true);
   if (times) print_times(out, result);

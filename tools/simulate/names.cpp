@@ -5,9 +5,9 @@
 namespace plumb::simulate {
 
 std::string suggestion(const std::string& wrong, const std::vector<std::string>& known) {
-  const std::string nearest = pipeline::nearest(wrong, known);
-  return (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
-         ("known: " + pipeline::joined(known));
+  const std::string near = pipeline::nearest(wrong, known);
+  return (near.empty() ? "" : "did you mean '" + near + "'? ") +
+         "known: " + pipeline::joined(known);
 }
 
 }  // namespace plumb::simulate

@@ -19,7 +19,7 @@ namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char *mark_file = "plumb-store", *mark = "plumb store 2";
+constexpr const char *mark_file = store_mark, *mark = "plumb store 2";
 
 constexpr std::size_t small_blob = std::size_t{8} << 20;  ///< is made whole before it is written
 
@@ -38,8 +38,8 @@ bool holds_more_than_marks(const fs::path& folder) {
 
 }  // namespace
 
-Store::Store(const fs::path& folder, StoreRole role, Whose whose)
-    : given_(folder),
+Store::Store(const fs::path& folder, StoreRole role, Whose whose, std::string title)
+    : title_(title.empty() ? "--cache-dir " + folder.string() : std::move(title)),
       folder_(fs::absolute(folder / "").lexically_normal().parent_path()),
       whose_(whose),
       token_(new_token()) {
@@ -56,9 +56,7 @@ Store::Store(const fs::path& folder, StoreRole role, Whose whose)
 
 Store::~Store() { sync(); }
 
-void Store::refuse(const std::string& why) const {
-  throw Error("--cache-dir " + given_.string() + ": " + why);
-}
+void Store::refuse(const std::string& why) const { throw Error(title_ + ": " + why); }
 
 void Store::refuse_unwritable(int why) const {
   refuse(std::string("cannot be written (") + std::strerror(why) + "); give another folder");

@@ -34,6 +34,9 @@ enum class StoreRole { driver, worker };
 /// What was looked for and not found good in a result: "" for nothing.
 using FaultOf = std::function<std::string(const StoredResult&)>;
 
+/// The file by which a store is known.
+inline constexpr const char* store_mark = "plumb-store";
+
 /// A folder of results under their keys, a file each:
 ///
 ///     DIR/plumb-store            "plumb store 2"
@@ -52,9 +55,10 @@ using FaultOf = std::function<std::string(const StoredResult&)>;
 class Store {
  public:
   /// Opens or makes the folder. Throws Error: it is not a store and not empty, a store of another
-  /// format, another's, or cannot be written.
+  /// format, another's, or cannot be written; its sentence begins with `title`, what the user would
+  /// change for another folder ("" for "--cache-dir FOLDER").
   explicit Store(const std::filesystem::path& folder, StoreRole role = StoreRole::driver,
-                 Whose whose = Whose::own);
+                 Whose whose = Whose::own, std::string title = "");
   ~Store();  ///< syncs
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
@@ -103,7 +107,8 @@ class Store {
   void damage(const Hash128& key, const std::string& why);  ///< removes it, and remembers the first
   bool fail(const std::string& why);                        ///< remembers the first; false
 
-  std::filesystem::path given_, folder_;
+  std::string title_;
+  std::filesystem::path folder_;
   Whose whose_;
   std::unique_ptr<Index> index_;
   std::atomic<std::size_t> damaged_ = 0, written_ = 0;

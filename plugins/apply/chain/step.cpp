@@ -1,9 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "chain.hpp"
-#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
+#include "plumb/slam/registration.hpp"
 #include "shared/selection/median.hpp"
 
 namespace plumb::apply_chain {
@@ -64,7 +65,7 @@ struct ApplyChain : WholeStep {
           " registrations are not accepted: the initial motion stands there, with little weight");
     }
     if (chain.interpolated)
-      context.count("segments without a registration, put between their neighbours",
+      context.count("segments without a registration, put between the neighbours",
                     chain.interpolated);
     if (chain.starts)
       context.count("places where the chain starts anew, after the initial motion", chain.starts);

@@ -225,7 +225,7 @@ TEST(ConstrainOdometry, CountsMotionsThatContradictTheRegistrations) {
   TestContext context;
   const auto metrics = wired().with("registered", registered).run<Metrics>("metrics", context);
   EXPECT_EQ(metrics.numbers[6].value, 1);
-  EXPECT_EQ(context.counts["motions of the odometry that contradict the registrations"], 1u);
+  EXPECT_EQ(context.counts["motions of the odometry contradicted by the registrations"], 1u);
   EXPECT_NEAR(sigmas(wired().with("registered", middles())).first, std::hypot(0.02, 0.09) / 10,
               1e-9);
 }

@@ -1,8 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "motion_noise.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::constrain_odometry {
 namespace {
@@ -74,7 +75,7 @@ struct ConstrainOdometry : WholeStep {
                       sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
     }
     out.metrics.add("outliers", static_cast<double>(noise.outliers.size()), "");
-    context.count("motions of the odometry that contradict the registrations",
+    context.count("motions of the odometry contradicted by the registrations",
                   noise.outliers.size());
     return out;
   }

@@ -112,7 +112,7 @@ TEST(GateDistance, TakesTheRangeOfTheCloudsOwnCentre) {
   StepUnderTest step(*plumb_module());
   step.each("segments", segments);
   EXPECT_EQ(text(step.run<Edges>("edges", context)), "0-1 1-3");
-  EXPECT_EQ(context.counts["scans dropped because they jump"], 1u);
+  EXPECT_EQ(context.counts["scans dropped for a jump"], 1u);
   EXPECT_EQ(step.run<Metrics>("metrics", context).numbers[1].value, 1);
 }
 

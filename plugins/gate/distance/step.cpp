@@ -1,7 +1,8 @@
-#include "gate.hpp"
-#include "plumb/slam/trajectory.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "gate.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::gate_distance {
 namespace {
@@ -68,8 +69,8 @@ struct GateDistance : WholeStep {
     const auto count = [&](const char* what, std::size_t n) {
       if (n) context.count(what, n);
     };
-    count("scans dropped because they jump", gated.far);
-    count("scans dropped because they have too few points", gated.empty);
+    count("scans dropped for a jump", gated.far);
+    count("scans dropped for too few points", gated.empty);
     count("windows restarted", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)

@@ -1,7 +1,8 @@
 
+#include "plumb/slam/step.hpp"
+
 #include "nearest.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::match_nearest {
 namespace {
@@ -76,7 +77,7 @@ struct Nearest : EdgeStep {
         nearest_pairs(i, j, in.poses.T_i_j,
                       {params.max_correspondence_distance, params.metric == Metric::plane,
                        params.max_points, params.max_normal_angle, params.both_ways});
-    context.count("pairs dropped for their normals", matches.found - matches.size());
+    context.count("pairs dropped for unlike normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};
   }

@@ -1,10 +1,11 @@
+#include "plumb/slam/step.hpp"
+
 #include <filesystem>
 
 #include "displacement.hpp"
+#include "plumb/plugin/module.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/slam/trajectory_error.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::measure_trajectory {
 namespace {
@@ -56,9 +57,10 @@ struct MeasureTrajectory : WholeStep {
       const PosePairs pairs = pair_by_stamp(*trajectory, truth, params.tolerance);
       const std::string of = label.empty() ? "" : label + ".";
       if (pairs.size() < 3) {
-        const std::string sentence = "only " + std::to_string(pairs.size()) + " poses of " +
+        const std::string sentence = "poses of " +
                                      (label.empty() ? "the trajectory" : "'" + label + "'") +
-                                     " have a stamp of the truth; the error needs 3";
+                                     " with a stamp of the truth: only " +
+                                     std::to_string(pairs.size()) + "; the error needs 3";
         out.metrics.notes.push_back(sentence);
         context.warn(sentence + "; look whether both files count the same seconds");
         continue;

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
@@ -96,7 +96,9 @@ TEST_F(MeasureTrajectoryTest, SaysThatThereIsNoTruth) {
 TEST_F(MeasureTrajectoryTest, SaysThatStampsDoNotMeet) {
   const auto metrics = measured({{"odd", curve(50, 5000)}});
   EXPECT_TRUE(metrics.numbers.empty());
-  EXPECT_THAT(context_.warnings, testing::ElementsAre(testing::HasSubstr("only 0 poses of 'odd'")));
+  EXPECT_THAT(
+      context_.warnings,
+      testing::ElementsAre(testing::HasSubstr("poses of 'odd' with a stamp of the truth: only 0")));
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <random>
 
+#include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/values.hpp"
-#include "plumb/plugin/step_testing.hpp"
 
 namespace plumb::prune_loop_consistency {
 namespace {
@@ -294,8 +294,8 @@ TEST(PruneLoopConsistency, GivesTheKeptLoopsAndAReasonForEach) {
   TestContext context;
   const auto constraints = pruning(all, drive.drifted).run<Constraints>("constraints", context);
   EXPECT_EQ(context.counts["loops kept"], loops.size() - 3);
-  EXPECT_EQ(context.counts["loops dropped: no drift explains them"], 1u);
-  EXPECT_EQ(context.counts["loops dropped: other loops contradict them"], 1u);
+  EXPECT_EQ(context.counts["loops dropped: explained by no drift"], 1u);
+  EXPECT_EQ(context.counts["loops dropped: contradicted by other loops"], 1u);
   EXPECT_EQ(context.counts["loops dropped: alone and far"], 0u);
   ASSERT_EQ(constraints.relative.size(), loops.size() - 3);
   EXPECT_FALSE(constraints.planar);

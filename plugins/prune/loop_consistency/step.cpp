@@ -1,11 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "loop_consistency.hpp"
-#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
+#include "plumb/slam/registration.hpp"
 
 namespace plumb::prune_loop_consistency {
 namespace {
@@ -147,8 +148,8 @@ struct PruneLoopConsistency : WholeStep {
                                    statuses[k] == "accepted" ? 1.0 : 0.0, statuses[k]});
     }
     context.count("loops kept", kept);
-    context.count("loops dropped: no drift explains them", odometry);
-    context.count("loops dropped: other loops contradict them", contradicted);
+    context.count("loops dropped: explained by no drift", odometry);
+    context.count("loops dropped: contradicted by other loops", contradicted);
     context.count("loops dropped: alone and far", alone);
     return out;
   }

@@ -233,9 +233,8 @@ TEST(RefineFrames, RegistersAFrameToTheSegmentsRoundItsOwnAndNotToThatOne) {
     EXPECT_LT(distance(refined.T_world_frame[f], walk.straight.T_world_frame[f]), 2e-3);
   }
   EXPECT_EQ(refined.stamps, walk.trajectory.stamps);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      0u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            0u);
 }
 
 TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
@@ -247,9 +246,8 @@ TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
   const auto one =
       walk.step().set("neighbours", std::int64_t(1)).run<Trajectory>("trajectory", context);
   EXPECT_EQ(one.T_world_frame[0].translation, walk.trajectory.T_world_frame[0].translation);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      4u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            4u);
   const auto two =
       walk.step().set("neighbours", std::int64_t(2)).run<Trajectory>("trajectory", context);
   EXPECT_LT(distance(two.T_world_frame[0], walk.straight.T_world_frame[0]), 2e-3);
@@ -263,9 +261,8 @@ TEST(RefineFrames, LeavesTheFramesOfOneSegmentAloneWhereTheyWereAndCountsThem) {
   const auto refined = walk.refined(context);
   for (int f = 0; f < 6; ++f)
     EXPECT_EQ(refined.T_world_frame[f].translation, walk.trajectory.T_world_frame[f].translation);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      2u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            2u);
 }
 
 TEST(RefineFrames, RefusesFramesPosesAndSegmentsThatDoNotBelongTogether) {

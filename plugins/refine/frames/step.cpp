@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
 namespace plumb::refine_frames {
@@ -75,8 +76,7 @@ struct RefineFrames : WholeStep {
     });
     std::uint64_t stayed = 0;
     for (const auto n : alone) stayed += n;
-    context.count("frames that see too little of the segments round them, left where they were",
-                  stayed);
+    context.count("frames left in place for seeing too little of the segments around", stayed);
     return out;
   }
 };

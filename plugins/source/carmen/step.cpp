@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -6,7 +8,6 @@
 #include "decompress.hpp"
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "scan_cloud.hpp"
 
 namespace plumb::source_carmen {
@@ -131,7 +132,7 @@ struct Carmen : WholeStep {
     context.count("scans read", scans.size());
     count(context, "odometry lines beside the scans", log.odometry_lines);
     count(context, "scans of a second laser left out", log.second_laser);
-    count(context, "lines that are not CARMEN messages left out", log.no_message);
+    count(context, "lines without a CARMEN message left out", log.no_message);
     count(context, "other messages of the same laser left out", log.repeated);
     std::size_t back = 0, unknown = 0;
     bool moves = false;
@@ -141,18 +142,19 @@ struct Carmen : WholeStep {
       const auto &a = scans[k].robot, &b = scans[0].robot;
       moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->yaw != b->yaw));
     }
-    count(context, "stamps that step back kept in the file's order", back);
+    count(context, "stamps out of order kept in the file's order", back);
     const std::string file = params.path.string();
     if (log.cut + log.not_numbers)
-      context.warn(file + ":" + std::to_string(log.first_damaged) + ": " + std::to_string(log.cut) +
-                   " scans with a wrong number of words and " + std::to_string(log.not_numbers) +
-                   " with words that are not numbers are left out; this line is the first");
+      context.warn(file + ":" + std::to_string(log.first_damaged) +
+                   ": the first scan of those left out for a wrong number of words (" +
+                   std::to_string(log.cut) + ") or for words that are not numbers (" +
+                   std::to_string(log.not_numbers) + ")");
     count(context, "damaged scans left out", log.cut + log.not_numbers);
     if (unknown)
-      context.warn(file + ": " + std::to_string(unknown) + " scans have " +
+      context.warn(file + ": scans whose number of beams (" +
                    std::to_string(scans[0].ranges.size()) +
-                   " beams or another number of no known scanner; they are taken as 180 degrees: "
-                   "set field_of_view if that is wrong");
+                   " or another) is of no known scanner are taken as 180 degrees (" +
+                   std::to_string(unknown) + "): set field_of_view if that is wrong");
     if (params.odometry == Odometry::use && !moves)
       context.warn(file +
                    ": has no odometry, or the robot never moves by it; every pose is the same: set "

@@ -27,10 +27,43 @@ def test_each_command_has_help_with_its_options(folder):
 def test_a_wrong_command_line_exits_with_2(folder):
     for arguments in ([], ["fly"], ["run"], ["run", CASCADE], ["check"], ["check", CASCADE, "--fast"], ["inspect"],
                       ["graph", CASCADE, "--format", "png"], ["evaluate", "a"], ["simulate"], ["cache", "fly"],
-                      ["run", CASCADE, "-o", folder / "out", "--threads", "many"]):
+                      ["run", CASCADE, "-o", folder / "out", "--threads", "many"], ["check", CASCADE, "--set", "voxel_size"],
+                      ["check", CASCADE, "--set", "=1m"], ["run", CASCADE, "-o", folder / "out", "--memory", "2 apples"],
+                      ["run", folder / "none.yaml", "-o", folder / "out", "--explain", "--no-cache"]):
         said = plumb(*arguments, code=WRONG_COMMAND_LINE)
-        assert said.err.strip() and not said.out, said
+        refused(said)
+        assert not said.out, said
     assert not (folder / "out").exists()
+
+
+def test_a_misspelt_command_or_option_gets_the_nearest(folder):
+    run = ["run", CASCADE, *INPUT]
+    for arguments, words in ((["rnu", CASCADE, "-o", folder / "out"], "'plumb' has no command 'rnu'; did you mean 'run'?"),
+                             (["simulte", "city_loop", "-o", folder / "out"], "did you mean 'simulate'?"),
+                             (["fly"], "known: run, check, resolve"),
+                             ([], "a command is missing; known: run, check, resolve"),
+                             (["cache", "verfy"], "'plumb cache' has no command 'verfy'; did you mean 'verify'?"),
+                             ([*run, "--ouput", folder / "out"], "'plumb run' has no option '--ouput'; did you mean '--output'?"),
+                             ([*run, "-o", folder / "out", "--thread=2"], "has no option '--thread'; did you mean '--threads'?"),
+                             ([*run, "-o", folder / "out", "--plugin-pth", folder], "did you mean '--plugin-path'?"),
+                             ([*run, "-o", folder / "out", "--stores", folder], "has no option '--stores'; `plumb run --help`"),  # --store is a former name
+                             (["check", CASCADE, "--fast"], "'plumb check' has no option '--fast'; `plumb check --help` says what there is"),
+                             ([*INPUT, "check", CASCADE], "'--set' is an option of 'plumb check'"),
+                             (["check", CASCADE, *INPUT, "voxel_size=1m"], "'voxel_size=1m' is one word more than 'plumb check' takes")):
+        refused(plumb(*arguments, code=WRONG_COMMAND_LINE), words, "--help` says what there is")
+    assert not (folder / "out").exists()
+
+
+def test_the_plugin_path_serves_before_and_behind_the_command(folder):
+    folder.chmod(0o755)
+    (folder / "filter.torn.so").write_text("not a module")
+    (folder / "filter.torn.so").chmod(0o644)
+    for arguments in (["--plugin-path", folder, "list"], ["list", "--plugin-path", folder], ["list", f"--plugin-path={folder}"]):
+        plumb(*arguments).has("refused: " + str(folder / "filter.torn.so"))
+    plumb("check", "--plugin-path", folder, CASCADE, *INPUT).has("good")
+    plumb("check", CASCADE, "--plugin-path", folder, *INPUT, "--plugin-path", folder).has("good")
+    plumb("run", CASCADE, *INPUT, "-o", folder / "out", "--untrusted", "--plugin-path", folder, code=WRONG_COMMAND_LINE).has("--plugin-path")
+    assert plumb("check", "--version").out == plumb("--version").out
 
 
 def test_check_of_a_good_pipeline_shows_the_passes_of_each_loop(folder):
@@ -43,6 +76,9 @@ def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):
     line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "prune.kmean," in text)
     plumb("check", file, *INPUT, code=WRONG_INPUT).has(f"wrong.yaml:{line}:", "Did you mean 'prune.kmeans'?")
     plumb("check", folder / "none.yaml", code=WRONG_INPUT).has("none.yaml")
+    street = sequence("street")
+    said = plumb("check", street, code=WRONG_INPUT).has(f"'{street}' is a folder, not a pipeline", f"behind --set, as in --set input={street}")
+    assert "scene.yaml" not in said.err, said
 
 
 def test_check_says_that_the_input_is_missing(folder):
@@ -144,8 +180,9 @@ def test_simulate_makes_the_same_bytes_with_one_and_with_two_threads(folder):
 def test_simulate_refuses_what_it_cannot_make(folder):
     out = folder / "out"
     few = ["--frames", 4, "--lines", 4, "--columns", 32, "-o", out]
-    for arguments in (["moon"], ["--path", folder / "none.tum"], ["blocks", "--noise", "2deg"], ["blocks", "--seed", "x"]):
-        said = plumb("simulate", *arguments, *few, code=WRONG_INPUT)
+    for arguments, code in ((["moon"], WRONG_INPUT), (["--path", folder / "none.tum"], WRONG_INPUT), (["blocks", "--noise", "2deg"], WRONG_COMMAND_LINE),
+                            (["blocks", "--seed", "x"], WRONG_COMMAND_LINE), (["rooms"], WRONG_COMMAND_LINE)):
+        said = plumb("simulate", *arguments, *few, code=code)
         assert len(said.err.strip()) > 30, said
         assert not out.exists()
     out.mkdir()

@@ -123,10 +123,24 @@ def test_a_step_s_file_stays_in_the_output(folder):
     assert not (folder / "out").exists() and not (folder / "escaped.tum").exists()
 
 
+def test_an_input_with_a_dollar_in_its_name(folder):
+    command, rooms = files(folder, seeds=[1])
+    rooms[0].rename(folder / "rooms$truth")
+    said = json.loads(plumb(*command, "--input", folder / "rooms$truth", "--json", "--quiet").out)
+    assert said["inputs"] == ["rooms$truth"]
+
+
+def test_the_cache_lies_in_no_folder_of_results(folder):
+    command, rooms = files(folder, seeds=[1])
+    place = folder / "out/chained/rooms_1"
+    refused(plumb(*command, "--input", rooms[0], "-o", folder / "out", "--cache-dir", place / "store", code=WRONG_INPUT), f"--cache-dir {place}/store: ")
+    assert not (folder / "out").exists()
+
+
 def test_an_input_that_is_given_twice_is_refused(folder):
     command, rooms = files(folder, seeds=[1])
     plumb(*command, "--input", rooms[0], "--input", rooms[0], code=WRONG_INPUT).has("given twice")
-    plumb(*command, "--input", rooms[0], "--set", f"input={rooms[0]}", code=WRONG_INPUT).has("--input sets it")
+    plumb(*command, "--input", rooms[0], "--set", f"input={rooms[0]}", code=WRONG_COMMAND_LINE).has("--input sets it")
 
 
 def test_says_which_variant_failed_on_which_input(folder):

@@ -14,7 +14,7 @@ FAST = ["--set", "ranges.frames=10"]
 def run(folder, out, *options, seen=None, code=0):
     """Runs the cascade with a store; how many results were reused and made."""
     said = plumb("run", CASCADE, "--set", f"input={seen or sequence('street')}", *FAST, "--cache-dir", folder / "store", *options, "-o", folder / out, code=code)
-    numbers = re.search(r"cache: (\d+) results reused, (\d+) made", said.err)
+    numbers = re.search(r"cache: (\d+) results? reused, (\d+) made", said.err)
     return said, *(int(n) for n in numbers.groups())
 
 

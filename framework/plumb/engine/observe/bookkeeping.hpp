@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/observe/memory_watch.hpp"
 #include "plumb/engine/observe/observer.hpp"
 
@@ -28,7 +29,7 @@ struct StepCount {
   std::string path, what;  ///< "points without a normal"
   std::uint64_t n = 0;
 
-  std::string text() const { return path + ": " + std::to_string(n) + " " + what; }
+  std::string text() const { return path + ": " + counted(n, what); }
 };
 
 /// One call of a step that was made or reused, here or in a process that works for this one.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "plumb/data/short_number.hpp"
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/report/comparison.hpp"
 
 namespace plumb {
@@ -77,9 +78,8 @@ std::string comparison_table(const Comparison& comparison) {
     text += "\n";
   }
   const std::size_t n = comparison.inputs.size();
-  text += "Means over " + std::to_string(n) + " input" + (n == 1 ? "" : "s") +
-          ". Less by: 100 (1 - " + comparison.variants[0] + " / " +
-          (comparison.variants.size() == 2 ? comparison.variants[1] : "the other") + ")";
+  text += "Means over " + counted(n, "inputs") + ". Less by: 100 (1 - " + comparison.variants[0] +
+          " / " + (comparison.variants.size() == 2 ? comparison.variants[1] : "the other") + ")";
   return text +
          (n < 2 ? ".\n" : ", +- 95 % confidence of the inputs' differences (Student's t).\n");
 }

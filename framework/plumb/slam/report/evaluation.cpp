@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/io/frame_files.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 
@@ -38,9 +39,9 @@ Evaluation evaluate(const EvaluationInput& input) {
     for (auto& file : io::sequence_frames(input.sequence)) frames.push_back(std::move(file.path));
     if (frames.size() < truth.size())
       io::refuse(input.sequence,
-                 "has " + std::to_string(frames.size()) + " frames for " +
-                     std::to_string(truth.size()) +
-                     " true poses: give the frames all poses belong to, or leave --clouds out");
+                 "has " + counted(frames.size(), "frames") + " for " +
+                     counted(truth.size(), "true poses") +
+                     ": give the frames all poses belong to, or leave --clouds out");
   }
   const auto* used = input.clouds ? &frames : nullptr;
   Evaluation result{truth.size(), {}, score(input.trajectory, truth, used)};

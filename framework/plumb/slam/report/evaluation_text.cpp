@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/report/evaluation.hpp"
 
 namespace plumb {
@@ -64,8 +65,8 @@ std::string evaluation_table(const Evaluation& evaluation) {
   if (evaluation.before) text += row("before", *evaluation.before, evaluation.true_poses);
   text += row("after", evaluation.after, evaluation.true_poses);
   if (ghosting)
-    text += "Ghosting over " + std::to_string(ghosting->pairs) +
-            " pairs of frames that see the same place twice.\n";
+    text += "Ghosting over " + counted(ghosting->pairs, "pairs of frames") +
+            " that see the same place twice.\n";
   return text;
 }
 

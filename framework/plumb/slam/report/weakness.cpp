@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/report/made_metrics.hpp"
 
 namespace plumb {
@@ -70,7 +71,7 @@ std::vector<std::string> weaknesses(const RunResult& result, bool warnings) {
   if (lines.size() > most_with_verdict) {
     const std::size_t left = lines.size() - most_with_verdict;
     lines.resize(most_with_verdict);
-    lines.push_back("and " + std::to_string(left) + " more sentences of other kinds, not shown");
+    lines.push_back("and " + counted(left, "more sentences of other kinds, not shown"));
   }
   lines.insert(lines.begin(), first);
   return lines;

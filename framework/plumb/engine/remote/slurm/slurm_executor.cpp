@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "plumb/data/error.hpp"
+#include "plumb/engine/observe/counted.hpp"
 
 namespace plumb {
 namespace {
@@ -60,8 +61,8 @@ class Calls {
       if (run_.adopt_result(item)) {
         settled.push_back(reply);
       } else if (begun_[item] >= tries_ + kills_forgiven) {
-        reply.fault = call->title + ": was begun " + std::to_string(begun_[item]) +
-                      " times and its job was ended each time; it is set aside";
+        reply.fault = call->title + ": was begun " + counted(begun_[item], "times") +
+                      " and its job was ended each time; it is set aside";
         settled.push_back(reply);
       }
     }
@@ -214,8 +215,8 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
   for (int idle = 0; !calls.all_settled();) {
     if (job.empty()) {
       if (idle == most_idle_submissions)
-        throw Error("step '" + run.plan().path + "': Slurm ended its job " + std::to_string(idle) +
-                    " times without one more result" +
+        throw Error("step '" + run.plan().path + "': Slurm ended its job " +
+                    counted(idle, "times") + " without one more result" +
                     (calls.trouble().empty() ? std::string() : " (" + calls.trouble() + ")") +
                     "; see " + (folder.path() / "log").string());
       const Task task = calls.rest();
