@@ -7,7 +7,7 @@ Each row of the table names a folder below framework/plumb and the folders that 
 that lie beside its folders stand above them. Tests, and headers for tests (testing.hpp, *_testing.hpp, testing/), may use all of their own part and
 what that may use. A step sees its own folder, libraries plugins/shared/NAME that it links, and the parts in the row of `plugins`, never another step;
 a library in plugins/shared sees the parts in its own row, and no step. What stands in plugins/FAMILY/STEP is in namespace plumb::FAMILY_STEP, what
-stands in plugins/shared/NAME in plumb::NAME.
+stands in plugins/shared/NAME in plumb::NAME. Whatever the table says, the core (CORE below) and its tests know no SLAM and no Eigen.
 """
 import re
 import sys
@@ -15,6 +15,8 @@ import tempfile
 from pathlib import Path
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+CORE = ("data", "plugin", "pipeline", "store", "engine")
+NOT_IN_CORE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"](?:(?:unsupported/)?Eigen|plumb/slam)/[^>"]+[>"])', re.M)
 NAMESPACE = re.compile(r"^namespace (plumb\S*) \{", re.M)
 
 
@@ -65,6 +67,13 @@ def faults_of_framework(source, rows):
                 yield f"framework/plumb/{path} includes {name}: `{own}` may not use `{folder_of(target, rows)}`"
             elif for_tests(target) and not for_tests(path):
                 yield f"framework/plumb/{path} includes {name}, which is for tests"
+
+
+def faults_of_core(source):
+    for part in CORE:
+        for file in sorted((source / "framework/plumb" / part).rglob("*.[ch]pp")):
+            for name in NOT_IN_CORE.findall(file.read_text()):
+                yield f"{file.relative_to(source)} includes {name}: the core and its tests know no SLAM and no Eigen"
 
 
 def fault_of_plugin(source, rows, file, name):
@@ -124,7 +133,8 @@ def circles(source):
 
 def faults_of(source):
     rows = allowed_uses((source / "CONTRIBUTING.md").read_text())
-    return [*faults_of_framework(source, rows), *faults_of_plugins(source, rows), *(f"a circle: {circle}" for circle in circles(source))]
+    return [*faults_of_framework(source, rows), *faults_of_core(source), *faults_of_plugins(source, rows),
+            *(f"a circle: {circle}" for circle in circles(source))]
 
 
 def sees_what_is_wrong():
@@ -174,8 +184,34 @@ def sees_what_is_wrong():
         assert len(found) == 1 and "its folder has plumb::two_step" in found[0], found
 
 
+def sees_slam_in_the_core():
+    """The judge of the core, on a tree whose table allows what the core must not do."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder)
+        (source / "CONTRIBUTING.md").write_text("| `framework/plumb/slam` | x | - |\n" +
+                                                "".join(f"| `framework/plumb/{part}` | x | `slam` |\n" for part in CORE))
+
+        def write(name, line):
+            file = source / "framework/plumb" / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(line + "\n")
+            return file
+
+        for name, line in (("slam/pose.hpp", "#include <Eigen/Core>"), ("slam/pose_test.cpp", '#include "plumb/slam/pose.hpp"'),
+                           ("data/hash.cpp", "// #include <Eigen/Core>"), ("data/hash_test.cpp", "#include <Eigenvalues.h>")):
+            write(name, line)
+        assert faults_of(source) == [], faults_of(source)
+        for name in ("data/a.hpp", "plugin/a_test.cpp", "pipeline/testing/steps.hpp", "store/a_testing.hpp", "engine/run/a.cpp"):
+            for line in ("#include <Eigen/Core>", "  # include <unsupported/Eigen/FFT>", '#include "plumb/slam/pose.hpp"', "#include <plumb/slam/pose.hpp>"):
+                file = write(name, line)
+                found = faults_of(source)
+                assert len(found) == 1 and name in found[0] and "no SLAM and no Eigen" in found[0], (name, line, found)
+                file.unlink()
+
+
 if __name__ == "__main__":
     sees_what_is_wrong()
+    sees_slam_in_the_core()
     found = faults_of(Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[2]).resolve())
     for fault in found:
         print(fault)

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/testing.hpp"
+#include "plumb/plugin/toy_testing.hpp"
 
 namespace plumb {
 namespace {
 
 using testing::ElementsAre;
+using toy::Metrics;
 
 enum class Norm { square, robust };
 

@@ -7,7 +7,7 @@
 ///               parts (segments: frames) those of its own parts
 ///   Several<T>  any number of pipeline values, each with a label
 ///
-/// A part may add views of its own: InputTraits (declaration.hpp), as slam/step.hpp does with
+/// A part may add views of its own: InputTraits (port_traits.hpp), as slam/step.hpp does with
 /// Relative.
 ///
 /// In `Out`: T (one value), std::vector<T> (one per item, from a WholeStep), Lazy<T> (made when

@@ -4,7 +4,8 @@
 
 #include <limits>
 
-#include "plumb/data/io/file_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
+#include "plumb/slam/types.hpp"
 
 namespace plumb {
 namespace {
@@ -33,7 +34,7 @@ FrameRange sound_range() {
 Segment sound_segment() {
   Segment segment;
   segment.range = sound_range();
-  return segment.with(io::full_cloud(4), {0, 1, 2, 2});
+  return segment.with(full_cloud(4), {0, 1, 2, 2});
 }
 
 Matches sound_matches() {
@@ -80,7 +81,7 @@ TEST(Fault, RangesHaveAPoseForEachFrame) {
 }
 
 TEST(Fault, CloudsHaveColumnsOfOneLength) {
-  const Frame frame{0, io::full_cloud(3)};
+  const Frame frame{0, full_cloud(3)};
   EXPECT_THAT(fault_after(frame, [](Frame& f) { f.cloud.y.pop_back(); }), HasSubstr("columns"));
   EXPECT_THAT(fault_after(frame, [](Frame& f) { f.cloud.ring.push_back(1); }),
               HasSubstr("columns"));
@@ -167,7 +168,7 @@ TEST(Fault, IsFoundByTheTypeOfAnyValue) {
   Edges edges;
   edges.list = {{0, 1}};  // of no segment
   const AnyValue value = any_value(edges);
-  EXPECT_THAT(value.type->fault(value.value.get()), HasSubstr("segments that there are not"));
+  EXPECT_THAT(value.type->code->fault(value.value.get()), HasSubstr("segments that there are not"));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ inline constexpr const char* store_mark = "plumb-store";
 /// may share a folder. All functions are safe from several threads.
 ///
 /// What lies in a store is believed no more than what a step gives: values are checked when they
-/// are read (data/fault.hpp), only regular files are, and links are not followed. The folder is
+/// are read (TypeCode::fault), only regular files are, and links are not followed. The folder is
 /// made for this user alone; one that others own or may write is refused, as are such files in it,
 /// unless that is asked for.
 class Store {

@@ -5,8 +5,9 @@
 #include <numbers>
 
 #include "plumb/data/io/file_testing.hpp"
-#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/types.hpp"
 #include "shared/parallel/loop_testing.hpp"
 
 namespace plumb::measure_map_error {

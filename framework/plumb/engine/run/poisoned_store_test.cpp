@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <limits>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_testing.hpp"
@@ -16,6 +17,7 @@ namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace toy;
 using testing::HasSubstr;
 
 const std::string halving = "plumb: 1\nname: halving\nabout: a loop that halves\n" +
@@ -99,9 +101,7 @@ TEST_F(PoisonedStore, WithColumnsOfUnlikeLength) {
 
 TEST_F(PoisonedStore, WithPosesThatAreNoNumbers) {
   expect_made_again("test.halve", "non-finite", [](StoredResult& r) {
-    spoil<Poses>(r, [](Poses& p) {
-      p.T_world_segment.at(1).translation.x() = std::numeric_limits<double>::infinity();
-    });
+    spoil<Poses>(r, [](Poses& p) { p.places.at(1) = std::numeric_limits<double>::infinity(); });
   });
 }
 

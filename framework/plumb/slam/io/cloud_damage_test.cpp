@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/data/io/file_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 
 namespace plumb {
 namespace {
@@ -20,7 +21,7 @@ std::string little_packed() {
 
 /// Files of every layout, and where the header of each ends.
 std::vector<std::pair<std::string, std::string>> samples() {
-  const Cloud cloud = io::full_cloud(7);
+  const Cloud cloud = full_cloud(7);
   const std::string fields =
       "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\n";
   const std::string ply =

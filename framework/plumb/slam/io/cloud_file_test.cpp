@@ -6,12 +6,12 @@
 #include <cstring>
 
 #include "plumb/data/io/file_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/io/lzf.hpp"
 
 namespace plumb {
 namespace {
 
-using io::full_cloud;
 using io::refusal;
 using io::TestFolder;
 using testing::AllOf;
