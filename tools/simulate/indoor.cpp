@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <mutex>
 
-#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
 

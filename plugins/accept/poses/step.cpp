@@ -1,9 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include <array>
 #include <cstdio>
 
 #include "agreement.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::accept_poses {
 namespace {

@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "correction.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::apply_correction {
 namespace {

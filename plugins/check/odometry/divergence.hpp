@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "plumb/plugin/context.hpp"
 #include "plumb/slam/segment.hpp"
 #include "plumb/slam/trajectory.hpp"
-#include "plumb/plugin/context.hpp"
 #include "scan_pair.hpp"
 
 namespace plumb::check_odometry {

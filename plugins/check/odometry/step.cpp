@@ -1,8 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include <cstdio>
 
 #include "divergence.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::check_odometry {
 namespace {

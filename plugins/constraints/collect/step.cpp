@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "collect.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::constraints_collect {
 namespace {

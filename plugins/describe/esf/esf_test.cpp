@@ -7,8 +7,8 @@
 #include <numeric>
 #include <thread>
 
-#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "solid_grid.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"

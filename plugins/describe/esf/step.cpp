@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "esf.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::describe_esf {
 namespace {

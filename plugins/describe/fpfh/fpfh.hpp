@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "plumb/slam/values.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/values.hpp"
 
 namespace plumb::describe_fpfh {
 

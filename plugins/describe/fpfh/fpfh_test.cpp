@@ -8,8 +8,8 @@
 #include "border.hpp"
 #include "key_points.hpp"
 #include "pair_counts.hpp"
-#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "scene_for_test.hpp"
 #include "shared/parallel/loop_testing.hpp"
 

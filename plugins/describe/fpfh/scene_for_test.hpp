@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "plumb/slam/cloud.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/cloud.hpp"
 
 namespace plumb::describe_fpfh {
 

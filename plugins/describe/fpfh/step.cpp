@@ -1,9 +1,10 @@
 
+#include "plumb/slam/step.hpp"
+
 #include "fpfh.hpp"
 #include "key_points.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::describe_fpfh {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "plumb/slam/graph.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/graph.hpp"
 #include "voxels.hpp"
 
 namespace plumb::edges_overlap {

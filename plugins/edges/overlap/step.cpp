@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "neighbours.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_overlap {
 namespace {

@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "join.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_union {
 namespace {

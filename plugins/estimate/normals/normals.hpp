@@ -6,9 +6,9 @@
 #include <functional>
 #include <optional>
 
+#include "plumb/plugin/context.hpp"
 #include "plumb/slam/cloud.hpp"
 #include "plumb/slam/geometry/search_tree.hpp"
-#include "plumb/plugin/context.hpp"
 #include "shared/planar/line_normal.hpp"
 
 namespace plumb::estimate_normals {

@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "normals.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::estimate_normals {
 namespace {

@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "distance.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::filter_distance {
 namespace {

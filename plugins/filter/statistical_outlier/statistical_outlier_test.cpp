@@ -8,8 +8,8 @@
 
 #include "compact_groups.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/parallel/loop_testing.hpp"
 #include "sum_of_nearest.hpp"
 #ifdef PLUMB_HAS_PCL

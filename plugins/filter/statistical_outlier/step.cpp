@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "statistical_outlier.hpp"
 
 namespace plumb::filter_statistical_outlier {

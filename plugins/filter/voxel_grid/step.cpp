@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "voxel_grid.hpp"
 
 namespace plumb::filter_voxel_grid {

@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "descriptor.hpp"
 #include "plumb/data/short_number.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "similarity.hpp"
 
 namespace plumb::loops_descriptor {

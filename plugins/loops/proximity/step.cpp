@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "proximity.hpp"
 
 namespace plumb::loops_proximity {

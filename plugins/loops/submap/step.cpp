@@ -1,6 +1,7 @@
-#include "plumb/slam/values.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/values.hpp"
 #include "submap.hpp"
 
 namespace plumb::loops_submap {

@@ -5,9 +5,9 @@
 #include <functional>
 #include <memory>
 
+#include "plumb/plugin/context.hpp"
 #include "plumb/slam/graph.hpp"
 #include "plumb/slam/segment.hpp"
-#include "plumb/plugin/context.hpp"
 
 namespace plumb::loops_submap {
 

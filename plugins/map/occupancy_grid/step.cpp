@@ -1,8 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "occupancy.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::map_occupancy_grid {
 namespace {

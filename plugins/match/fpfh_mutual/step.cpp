@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "mutual.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::match_fpfh_mutual {
 namespace {

@@ -1,9 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include <cmath>
 
 #include "map_error.hpp"
-#include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
 namespace plumb::measure_map_error {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 

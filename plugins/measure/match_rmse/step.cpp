@@ -1,10 +1,11 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "match_rmse.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::measure_match_rmse {
 namespace {

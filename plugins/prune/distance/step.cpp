@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "shared/point_pairs/rigid_fit.hpp"
 
 namespace plumb::prune_distance {

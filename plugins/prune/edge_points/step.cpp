@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "inner.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_edge_points {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/slam/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::prune_kmeans {
 

@@ -1,9 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "kmeans.hpp"
 #include "motion_vectors.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_kmeans {
 namespace {

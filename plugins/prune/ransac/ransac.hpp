@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/slam/graph.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::prune_ransac {
 

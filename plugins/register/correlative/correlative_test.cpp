@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "plumb/slam/registration.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/registration.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::register_correlative {

@@ -1,8 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "correlative.hpp"
+#include "plumb/plugin/module.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/segment.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::register_correlative {
 namespace {
@@ -42,8 +43,8 @@ struct RegisterCorrelative : EdgeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const CorrelativeResult found =
-        correlate(in.targets.i->cloud, in.sources.j->cloud, planar::projected(in.poses.T_i_j), params.search);
+    const CorrelativeResult found = correlate(in.targets.i->cloud, in.sources.j->cloud,
+                                              planar::projected(in.poses.T_i_j), params.search);
     Registration out;
     out.T_i_j = in_space(found.T);
     out.iterations = found.retried ? 2 : 1;

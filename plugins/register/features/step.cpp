@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "consensus.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
 namespace plumb::register_features {

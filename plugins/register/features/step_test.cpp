@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
+#include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/values.hpp"
-#include "plumb/plugin/step_testing.hpp"
 #include "yard_testing.hpp"
 
 namespace plumb::register_features {

@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/segment.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "shared/planar/icp.hpp"
 
 namespace plumb::register_icp {

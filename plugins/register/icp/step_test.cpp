@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/segment.hpp"
-#include "plumb/plugin/step_testing.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::register_icp {

@@ -1,7 +1,8 @@
-#include "by_count.hpp"
-#include "plumb/slam/range.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "by_count.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::segment_by_count {
 namespace {

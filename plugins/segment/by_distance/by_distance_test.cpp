@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 

@@ -1,10 +1,11 @@
+#include "plumb/slam/step.hpp"
+
 #include <functional>
 #include <optional>
 
 #include "by_distance.hpp"
-#include "plumb/slam/range.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::segment_by_distance {
 namespace {

@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "merge.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_merge {
 namespace {

@@ -1,5 +1,5 @@
-#include "plumb/slam/range.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::segment_poses {
 namespace {

@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 
 namespace plumb::segment_poses {
 namespace {

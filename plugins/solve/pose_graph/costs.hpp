@@ -5,8 +5,8 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include "plumb/slam/graph.hpp"
 #include "plumb/slam/geometry/pair_moments.hpp"
+#include "plumb/slam/graph.hpp"
 
 namespace plumb::solve_pose_graph {
 

@@ -1,5 +1,6 @@
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
 #include "pose_graph.hpp"
 
 namespace plumb::solve_pose_graph {

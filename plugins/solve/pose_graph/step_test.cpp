@@ -1,8 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include <gmock/gmock.h>
 
 #include "graph_testing.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
 
 extern "C" const PlumbModule* plumb_module();

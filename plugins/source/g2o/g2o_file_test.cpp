@@ -7,8 +7,8 @@
 
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 

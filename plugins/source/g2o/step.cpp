@@ -1,6 +1,7 @@
+#include "plumb/slam/step.hpp"
+
 #include "g2o_file.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::source_g2o {
 namespace {

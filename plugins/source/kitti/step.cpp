@@ -1,12 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <optional>
 
 #include "calibration.hpp"
-#include "plumb/slam/io/bin_file.hpp"
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/bin_file.hpp"
 #include "plumb/slam/io/frame_files.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::source_kitti {
 namespace {

@@ -1,8 +1,9 @@
-#include "plumb/slam/io/bin_file.hpp"
-#include "plumb/data/io/file_text.hpp"
-#include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/data/io/file_text.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/bin_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "scans.hpp"
 
 namespace plumb::source_mulran {

@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "plumb/data/error.hpp"
-#include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 

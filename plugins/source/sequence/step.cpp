@@ -1,11 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <memory>
 #include <optional>
 
+#include "plumb/plugin/module.hpp"
 #include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/slam/io/frame_files.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "sequence_folder.hpp"
 
 namespace plumb::source_sequence {

@@ -1,6 +1,7 @@
-#include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
 namespace plumb::source_trajectory {
 namespace {

@@ -1,6 +1,6 @@
 #include "plumb/data/io/file_testing.hpp"
-#include "plumb/slam/trajectory.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::source_trajectory {
 namespace {

@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include <optional>
 
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "shared/thinning/spots.hpp"
 #include "window.hpp"
 

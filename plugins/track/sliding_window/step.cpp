@@ -1,6 +1,7 @@
-#include "plumb/slam/segment.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/segment.hpp"
 #include "track.hpp"
 
 namespace plumb::track_sliding_window {

@@ -9,6 +9,10 @@
 
 namespace plumb::track_sliding_window {
 
+using planar::IcpOptions;
+using planar::Metric;
+using planar::Stop;
+
 struct TrackOptions : SubmapOptions {
   IcpOptions icp = {.stop = Stop::ratio, .metric = Metric::line};
   double min_translation =

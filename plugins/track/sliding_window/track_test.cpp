@@ -1,7 +1,7 @@
 #include "track.hpp"
 
-#include "plumb/slam/segment.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/segment.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::track_sliding_window {

@@ -1,7 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "graph_text.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb::write_graph {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "map_file.hpp"
 #include "plumb/data/document.hpp"
-#include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/parallel/loop_testing.hpp"
 #include "voxel_map.hpp"
 

@@ -1,10 +1,11 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "map_file.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "voxel_map.hpp"
 
 namespace plumb::write_map {

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "plumb/slam/cloud.hpp"
 #include "plumb/data/file_bytes.hpp"
+#include "plumb/slam/cloud.hpp"
 #include "plumb/slam/geometry/pose.hpp"
 #include "shared/parallel/loop.hpp"
 #include "tile.hpp"

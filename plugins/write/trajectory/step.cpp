@@ -1,7 +1,8 @@
-#include "plumb/data/document.hpp"
-#include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
 #include "plumb/slam/step.hpp"
+
+#include "plumb/data/document.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
 namespace plumb::write_trajectory {
 namespace {

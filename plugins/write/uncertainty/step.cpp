@@ -1,9 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 #include "table.hpp"
 
 namespace plumb::write_uncertainty {

@@ -74,10 +74,9 @@ std::vector<Keeping> keeping_of(const Plan& plan) {
     visit_wires(plan, item, [&](int step, const Wire& wire, const InputDescription* port) {
       if (wire.step < 0) return;
       ++wires[wire.step];
-      passable[wire.step] += step >= 0 && port->access == Access::item &&
-                             repeat_of[step] == repeat_of[wire.step] &&
-                             plan.steps[step].description->items ==
-                                 plan.steps[wire.step].description->items;
+      passable[wire.step] +=
+          step >= 0 && port->access == Access::item && repeat_of[step] == repeat_of[wire.step] &&
+          plan.steps[step].description->items == plan.steps[wire.step].description->items;
     });
   std::vector<Keeping> keeping;
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 
 namespace plumb::io {
 

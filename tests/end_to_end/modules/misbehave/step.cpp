@@ -1,4 +1,6 @@
 /// Steps that do what no step should, for one edge, so that tests see what becomes of the others.
+#include "plumb/slam/step.hpp"
+
 #include <unistd.h>
 
 #include <csignal>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb {
 namespace {

@@ -1,8 +1,9 @@
 /// As many items as asked for, and a step that does nothing with each: what an item costs beside
 /// its work.
+#include "plumb/slam/step.hpp"
+
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
-#include "plumb/slam/step.hpp"
 
 namespace plumb {
 namespace {

@@ -129,8 +129,7 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
   auto run = std::make_shared<StepRun>(*plan, registry.step(from.step), values_from(from.values),
                                        std::move(inputs), keeping, state);
   Source list;
-  if (from.list.run >= 0)
-    list = {runs_.at(from.list.run), static_cast<int>(from.list.output), ""};
+  if (from.list.run >= 0) list = {runs_.at(from.list.run), static_cast<int>(from.list.output), ""};
   switch (from.role) {
     case ImageRole::call:
     case ImageRole::pass:
