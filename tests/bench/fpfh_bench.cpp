@@ -7,6 +7,7 @@
 #include "../../plugins/describe/fpfh/fpfh.hpp"
 #include "../../plugins/describe/fpfh/key_points.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"

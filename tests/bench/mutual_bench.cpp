@@ -7,6 +7,7 @@
 #include "../../plugins/describe/fpfh/key_points.hpp"
 #include "../../plugins/match/fpfh_mutual/mutual.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_FLANN
 #include <flann/flann.hpp>

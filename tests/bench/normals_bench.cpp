@@ -3,6 +3,7 @@
 
 #include "../../plugins/estimate/normals/normals.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"

@@ -4,6 +4,7 @@
 
 #include "agreement.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::accept_poses {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/planar_pose.hpp"
 
 namespace plumb::apply_chain {

@@ -4,6 +4,7 @@
 
 #include "divergence_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::check_odometry {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "motion_noise.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::constrain_odometry {
 namespace {

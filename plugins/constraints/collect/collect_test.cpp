@@ -1,6 +1,7 @@
 #include "collect.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/planar_pose.hpp"
 
 namespace plumb::constraints_collect {

@@ -10,6 +10,7 @@
 #include "pair_counts.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/geometry/pose.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene_for_test.hpp"
 #include "shared/parallel/loop_testing.hpp"
 

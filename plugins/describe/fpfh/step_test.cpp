@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/step_testing.hpp"
 #include "scene_for_test.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "neighbours.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_overlap {
 namespace {

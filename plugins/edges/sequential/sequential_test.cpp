@@ -1,6 +1,7 @@
 #include "sequential.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_sequential {
 namespace {

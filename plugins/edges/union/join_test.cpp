@@ -1,6 +1,7 @@
 #include "join.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::edges_union {
 namespace {

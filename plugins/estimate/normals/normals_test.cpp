@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/parallel/loop_testing.hpp"
 
 namespace plumb::estimate_normals {

@@ -1,6 +1,7 @@
 #include "gate.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::gate_distance {
 namespace {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::loops_descriptor {
 namespace {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::loops_proximity {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "consistent.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/room_testing.hpp"
 #include "uncertainty.hpp"
 

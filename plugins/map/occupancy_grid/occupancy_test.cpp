@@ -8,6 +8,7 @@
 #include <set>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "ray.hpp"
 #include "shared/parallel/loop_testing.hpp"
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::match_nearest {
 namespace {

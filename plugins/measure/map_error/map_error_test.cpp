@@ -7,6 +7,7 @@
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/slam/types.hpp"
 #include "shared/parallel/loop_testing.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/slam/types.hpp"
 
 namespace plumb::measure_relations {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_distance {
 namespace {

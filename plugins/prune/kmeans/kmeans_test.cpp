@@ -7,6 +7,7 @@
 
 #include "motion_vectors.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::prune_kmeans {
 namespace {

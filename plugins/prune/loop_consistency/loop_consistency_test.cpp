@@ -7,6 +7,7 @@
 
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/registration.hpp"
+#include "plumb/slam/step.hpp"
 #include "plumb/slam/values.hpp"
 
 namespace plumb::prune_loop_consistency {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
 namespace plumb::refine_frames {

@@ -6,6 +6,7 @@
 
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/registration.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::register_correlative {

@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include <gtest/gtest.h>
 
 #include "plumb/plugin/step_testing.hpp"

@@ -1,5 +1,6 @@
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/range.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::segment_poses {
 namespace {

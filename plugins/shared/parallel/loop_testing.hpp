@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::parallel {
 

@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/trajectory.hpp"

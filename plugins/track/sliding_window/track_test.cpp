@@ -2,6 +2,7 @@
 
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/segment.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::track_sliding_window {

@@ -6,6 +6,7 @@
 #include "map_image.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
 namespace plumb::write_map2d {
 namespace {

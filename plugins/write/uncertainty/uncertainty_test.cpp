@@ -6,6 +6,7 @@
 
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "table.hpp"
 
 namespace plumb::write_uncertainty {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/slam/types.hpp"
 
 namespace plumb {
 namespace {

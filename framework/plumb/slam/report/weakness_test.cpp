@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "plumb/slam/types.hpp"
+
 namespace plumb {
 namespace {
 
