@@ -66,7 +66,7 @@ TEST(CollectConstraints, CountWhatTheyTakeAndLeave) {
   StepUnderTest(*plumb_module())
       .each("registrations",
             std::vector{registration({1, 0, 0}, true), registration({1, 0, 0}, false)},
-            {3, {{0, 1}, {1, 2}}})
+            Edges{3, {{0, 1}, {1, 2}}})
       .run<Constraints>("constraints", context);
   EXPECT_EQ(context.counts["registrations accepted"], 1u);
   EXPECT_EQ(context.counts["registrations not accepted and left out"], 1u);
