@@ -74,19 +74,8 @@ int said() {
   return plumb::command::exit_unsettled;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  open_standard_files();
-  allow_open_files();
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with "
-                 "-DPLUMB_ARCH= for any x86-64\n";
-    return plumb::command::exit_refused;
-  }
-  const plumb::command::PlainStream out(std::cout), err(std::cerr);
-  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.",
-               "plumb"};
+/// All that stands before and behind the sub-commands.
+void set_up(CLI::App& app) {
   app.footer(
       "Start with:\n"
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
@@ -108,6 +97,22 @@ int main(int argc, char** argv) {
   app.failure_message([](const CLI::App* program, const CLI::Error& error) {
     return "plumb: " + plumb::command::usage_sentence(*program, error) + "\n";
   });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_files();
+  allow_open_files();
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with "
+                 "-DPLUMB_ARCH= for any x86-64\n";
+    return plumb::command::exit_refused;
+  }
+  const plumb::command::PlainStream out(std::cout), err(std::cerr);
+  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.",
+               "plumb"};
+  set_up(app);
   plumb::command::add_run(app);
   plumb::command::add_check(app);
   plumb::command::add_resolve(app);
