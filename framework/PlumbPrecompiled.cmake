@@ -4,14 +4,14 @@ set(PLUMB_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <filesystem> <fstrea
                       <string> <string_view> <unordered_map> <variant> <vector>)
 set(PLUMB_PRECOMPILED_SLAM <Eigen/Core> <Eigen/Geometry>)
 
-# plumb_precompiled_by(OWNER LIBRARY HEADER...): a target from which others that link LIBRARY take its precompiled headers.
-function(plumb_precompiled_by owner library)
+# plumb_precompiled_by(OWNER LIBRARIES HEADER...): a target from which others that link the LIBRARIES, a list, take its precompiled headers.
+function(plumb_precompiled_by owner libraries)
   set(nothing ${CMAKE_BINARY_DIR}/${owner}.cpp)
   if(NOT EXISTS ${nothing})
     file(WRITE ${nothing} "// Holds a precompiled header.\n")
   endif()
   add_library(${owner} OBJECT ${nothing})
-  target_link_libraries(${owner} PRIVATE ${library})
+  target_link_libraries(${owner} PRIVATE ${libraries})
   target_compile_options(${owner} PRIVATE ${PLUMB_WARNINGS})
   target_precompile_headers(${owner} PRIVATE ${ARGN})
 endfunction()
@@ -19,15 +19,15 @@ endfunction()
 # plumb_precompiled_step(TARGET): objects of a module, of the simulator, of a command's library.
 function(plumb_precompiled_step target)
   if(NOT TARGET plumb_precompiled_for_steps)
-    plumb_precompiled_by(plumb_precompiled_for_steps plumb_slam ${PLUMB_PRECOMPILED} ${PLUMB_PRECOMPILED_SLAM})
+    plumb_precompiled_by(plumb_precompiled_for_steps "plumb_slam;plumb_kernel" ${PLUMB_PRECOMPILED} ${PLUMB_PRECOMPILED_SLAM})
   endif()
   target_precompile_headers(${target} REUSE_FROM plumb_precompiled_for_steps)
 endfunction()
 
 # A test program takes the header of OWNER, which is compiled as for a library.
-function(plumb_precompiled_test_by owner target library)
+function(plumb_precompiled_test_by owner target libraries)
   if(NOT TARGET ${owner})
-    plumb_precompiled_by(${owner} ${library} ${PLUMB_PRECOMPILED} ${ARGN} <gmock/gmock.h> <gtest/gtest.h>)
+    plumb_precompiled_by(${owner} "${libraries}" ${PLUMB_PRECOMPILED} ${ARGN} <gmock/gmock.h> <gtest/gtest.h>)
     target_link_libraries(${owner} PRIVATE GTest::gmock)
   endif()
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
@@ -37,7 +37,7 @@ endfunction()
 
 # plumb_precompiled_test(TARGET): a test program. plumb_precompiled_core_test(TARGET): one of the core, without Eigen.
 function(plumb_precompiled_test target)
-  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} plumb_slam ${PLUMB_PRECOMPILED_SLAM})
+  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_kernel" ${PLUMB_PRECOMPILED_SLAM})
 endfunction()
 function(plumb_precompiled_core_test target)
   plumb_precompiled_test_by(plumb_precompiled_for_core_tests ${target} plumb)

@@ -13,6 +13,7 @@ function(plumb_add_shared name)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/plugins)
     target_link_libraries(${target} PUBLIC plumb_slam ${arg_LIBRARIES})
+    target_link_libraries(${target} PRIVATE plumb_kernel)
     target_compile_options(${target} PRIVATE ${PLUMB_WARNINGS})
     plumb_precompiled_step(${target})
   else()
@@ -24,16 +25,18 @@ function(plumb_add_shared name)
   if(PLUMB_TESTS AND tests)
     add_executable(test_shared_${name} ${tests})
     plumb_precompiled_test(test_shared_${name})
-    target_link_libraries(test_shared_${name} PRIVATE ${target} GTest::gmock GTest::gtest_main)
+    target_link_libraries(test_shared_${name} PRIVATE ${target} plumb_kernel GTest::gmock GTest::gtest_main)
     gtest_discover_tests(test_shared_${name} TEST_PREFIX "shared.${name}." DISCOVERY_MODE PRE_TEST)
   endif()
 endfunction()
 
-# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED]
+# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED] [PORTABLE]
 #                [LICENCE "SPDX expression" LICENCE_REASON "sentence"])
 #
 # Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
 # (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
+#
+# PORTABLE: compiled for any x86-64, as libraries are that it exchanges Eigen's matrices with, and not for the processors of PLUMB_ARCH.
 #
 # LICENCE is what whoever loads the module accepts: the licence of its own code AND those of all libraries that it loads beside libplumb and what
 # that loads; BSD-3-Clause if not given. LICENCE_REASON names the libraries and says which brings what.
@@ -44,7 +47,7 @@ function(plumb_close_folder folder)
 endfunction()
 
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "NOT_INSTALLED" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
@@ -63,7 +66,10 @@ function(plumb_add_step step)
   add_library(${id}_objects OBJECT ${arg_SOURCES})
   target_link_libraries(${id}_objects PUBLIC plumb_slam ${arg_LIBRARIES})
   target_compile_options(${id}_objects PRIVATE ${PLUMB_WARNINGS})
-  plumb_precompiled_step(${id}_objects)
+  if(NOT arg_PORTABLE)
+    target_link_libraries(${id}_objects PRIVATE plumb_kernel)
+    plumb_precompiled_step(${id}_objects)
+  endif()
 
   add_library(step_${id} MODULE $<TARGET_OBJECTS:${id}_objects>)
   target_link_libraries(step_${id} PRIVATE plumb_slam ${arg_LIBRARIES} -Wl,--no-undefined)
@@ -89,7 +95,12 @@ function(plumb_add_step step)
 
   if(PLUMB_TESTS AND arg_TESTS)
     add_executable(test_${id} ${arg_TESTS} $<TARGET_OBJECTS:${id}_objects>)
-    plumb_precompiled_test(test_${id})
+    if(NOT arg_PORTABLE)
+      target_link_libraries(test_${id} PRIVATE plumb_kernel)
+      plumb_precompiled_test(test_${id})
+    else()
+      target_compile_options(test_${id} PRIVATE ${PLUMB_WARNINGS})
+    endif()
     target_link_libraries(test_${id} PRIVATE plumb_slam ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
                                              GTest::gtest_main)
     target_compile_definitions(test_${id} PRIVATE PLUMB_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
