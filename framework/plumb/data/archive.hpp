@@ -181,6 +181,10 @@ class InArchive {
   std::size_t at_ = 0;
 };
 
+template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, Hash128>
+void fields(Archive& a, T& h) { a(h.high, h.low); }
+
 /// Hash of a value's content.
 template <class T>
 Hash128 content_hash(const T& value) {

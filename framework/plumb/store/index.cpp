@@ -29,6 +29,27 @@ template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Fact>
 void fields(Archive& a, T& fact) { a(fact.name, fact.value); }
 
+template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, CountOf>
+void fields(Archive& a, T& count) { a(count.what, count.n); }
+template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, Recalled>
+void fields(Archive& a, T& r) {
+  a(r.items, r.whole, r.values, r.numbers, r.counts, r.warnings, r.facts);
+}
+
+namespace {
+
+Recalled recalled_of(const std::string& bytes) {
+  try {
+    return from_bytes<Recalled>(bytes);
+  } catch (const Error&) {
+    refuse_row("recalled");
+  }
+}
+
+}  // namespace
+
 Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
   open();
 }
@@ -95,6 +116,59 @@ void Index::set_facts(const std::string& pipeline, const std::string& path, int 
   notes_.facts[{pipeline, path, pass}] = std::move(facts);
 }
 
+std::optional<Recalled> Index::recalled(const Hash128& key) {
+  {
+    const std::lock_guard lock(notes_mutex_);
+    if (const auto at = notes_.recalled.find(key); at != notes_.recalled.end()) return at->second;
+  }
+  std::optional<Recalled> found;
+  with_database([&](Database& database) {
+    Statement ask(database,
+                  "SELECT recalled, sum IS row_sum(key, recalled, used) FROM recalled WHERE key = "
+                  "?1");
+    if (!ask.with(key).next()) return;
+    if (ask.number(1) != 1) refuse_row("recalled");
+    found = recalled_of(ask.text(0));
+  });
+  if (!found) return found;
+  const std::lock_guard lock(notes_mutex_);
+  notes_.recalled_again[key] = now_ms();
+  return found;
+}
+
+void Index::set_recalled(const Hash128& key, Recalled recalled) {
+  const std::lock_guard lock(notes_mutex_);
+  notes_.recalled[key] = std::move(recalled);
+}
+
+void Index::settle_recalled(std::int64_t oldest) {
+  flush();
+  with_database([&](Database& database) {
+    Statement all(database,
+                  "SELECT key, recalled, used, sum IS row_sum(key, recalled, used) FROM recalled");
+    Statement known(database, "SELECT 1 FROM results WHERE key = ?1");
+    Statement use(database,
+                  "UPDATE results SET used = ?2, sum = row_sum(key, step, bytes, made, ?2) WHERE "
+                  "key = ?1 AND used < ?2");
+    Statement forget(database, "DELETE FROM recalled WHERE key = ?1");
+    Transaction transaction(database);
+    while (all.next()) {
+      if (all.number(3) != 1) refuse_row("recalled");
+      const Recalled recalled = recalled_of(all.text(1));
+      bool there = false;
+      const auto see = [&](const Hash128& result) {
+        if (!known.with(result).next()) return;
+        there = true;
+        use.with(result, all.number(2)).run();
+      };
+      for (const Hash128& result : recalled.items) see(result);
+      see(recalled.whole);
+      if (!there || all.number(2) < oldest) forget.with(all.hash(0)).run();
+    }
+    transaction.commit();
+  });
+}
+
 std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t size,
                                         std::int64_t mtime_ns) {
   {
@@ -142,6 +216,8 @@ void Index::flush() {
   notes_.results.merge(notes.results);
   notes_.facts.merge(notes.facts);
   notes_.file_hashes.merge(notes.file_hashes);
+  notes_.recalled.merge(notes.recalled);
+  notes_.recalled_again.merge(notes.recalled_again);
 }
 
 void Index::write(Database& database, const Notes& notes) {
@@ -176,6 +252,14 @@ void Index::write(Database& database, const Notes& notes) {
       "INSERT OR REPLACE INTO file_hashes VALUES(?1, ?2, ?3, ?4, row_sum(?1, ?2, ?3, ?4))");
   for (const auto& [path, seen] : notes.file_hashes)
     put_hash.with(path, seen.size, seen.mtime_ns, seen.hash).run();
+  Statement put_recalled(database,
+                         "INSERT OR REPLACE INTO recalled VALUES(?1, ?2, ?3, row_sum(?1, ?2, ?3))");
+  for (const auto& [key, recalled] : notes.recalled)
+    put_recalled.with(key, Bytes{to_bytes(recalled)}, now_ms()).run();
+  Statement again(database,
+                  "UPDATE recalled SET used = ?2, sum = row_sum(key, recalled, ?2) WHERE key = ?1 "
+                  "AND sum IS row_sum(key, recalled, used)");
+  for (const auto& [key, time] : notes.recalled_again) again.with(key, time).run();
 }
 
 void Index::check() {

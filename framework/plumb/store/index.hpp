@@ -35,10 +35,29 @@ struct Fact {
   bool operator==(const Fact&) const = default;
 };
 
+/// What a count of a result is called, and how many.
+struct CountOf {
+  std::string what;
+  std::uint64_t n = 0;
+};
+
+/// What a whole step gave in an earlier run, as far as it can be known without opening a result.
+struct Recalled {
+  std::vector<Hash128> items;                ///< by item: keys of its results
+  Hash128 whole;                             ///< key of the result of a step on whole collections
+  std::vector<std::vector<Hash128>> values;  ///< of that, by output: hashes of its values
+  std::vector<std::string> numbers;          ///< by output: bytes of a value with numbers, or none
+  std::vector<CountOf> counts;
+  std::vector<std::string> warnings;
+  std::vector<Fact> facts;
+};
+
 /// The index of a store, which holds nothing that the results do not say themselves but when they
 /// were used, why they were made, and hashes of input files:
 ///
-///     DIR/index.sqlite   the tables results, facts and file_hashes; each row with its own checksum
+///     DIR/index.sqlite   the tables results, facts, file_hashes and recalled; each row with its
+///     own
+///                        checksum
 ///     DIR/index.lock     locked by all who use the index, shared; alone by the first who opens and
 ///     the last who closes it (index_life.cpp) DIR/index.sum      XXH3-128 of index.sqlite, while
 ///     nobody uses it
@@ -63,6 +82,13 @@ class Index {
   std::vector<Fact> facts(const std::string& pipeline, const std::string& path, int pass);
   void set_facts(const std::string& pipeline, const std::string& path, int pass,
                  std::vector<Fact> facts);
+
+  /// What was remembered of a step under a key of its own (engine/run/step_recall.cpp).
+  std::optional<Recalled> recalled(const Hash128& key);
+  void set_recalled(const Hash128& key, Recalled recalled);
+  /// Counts the results of what was recalled as used when it was, and forgets what was last
+  /// recalled before `oldest` [ms since 1970] or has no result left.
+  void settle_recalled(std::int64_t oldest);
 
   /// The content hash of an input file that had this size and time of change [ns]; none when it is
   /// not known.
@@ -101,7 +127,12 @@ class Index {
     std::unordered_map<Hash128, Note, Hash128Hash> results;
     std::map<FactsOf, std::vector<Fact>> facts;
     std::map<std::string, FileHash> file_hashes;
-    bool empty() const { return results.empty() && facts.empty() && file_hashes.empty(); }
+    std::unordered_map<Hash128, Recalled, Hash128Hash> recalled;
+    std::unordered_map<Hash128, std::int64_t, Hash128Hash> recalled_again;
+    bool empty() const {
+      return results.empty() && facts.empty() && file_hashes.empty() && recalled.empty() &&
+             recalled_again.empty();
+    }
   };
 
   template <class Action>

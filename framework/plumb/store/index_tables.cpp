@@ -13,8 +13,8 @@ struct Table {
   std::string name, definition, columns;  ///< the columns that `sum` is of
 };
 
-const std::array<Table, 3>& tables() {
-  static const std::array<Table, 3> all = {{
+const std::array<Table, 4>& tables() {
+  static const std::array<Table, 4> all = {{
       {"results",
        "CREATE TABLE results(key BLOB PRIMARY KEY, step TEXT, bytes INTEGER, made INTEGER, used "
        "INTEGER, sum INTEGER) WITHOUT ROWID",
@@ -27,6 +27,10 @@ const std::array<Table, 3>& tables() {
        "CREATE TABLE file_hashes(path TEXT PRIMARY KEY, size INTEGER, mtime_ns INTEGER, hash BLOB, "
        "sum INTEGER) WITHOUT ROWID",
        "path, size, mtime_ns, hash"},
+      {"recalled",
+       "CREATE TABLE recalled(key BLOB PRIMARY KEY, recalled BLOB, used INTEGER, sum INTEGER) "
+       "WITHOUT ROWID",
+       "key, recalled, used"},
   }};
   return all;
 }

@@ -58,9 +58,12 @@ bool Results::in_store(const Hash128& key) const {
 }
 
 std::size_t Results::size_of(const Hash128& key) const {
-  const std::lock_guard lock(mutex_);
-  const auto at = facts_.find(key);
-  return at == facts_.end() ? 0 : at->second.bytes;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto at = facts_.find(key);
+    if (at != facts_.end() && at->second.bytes > 0) return at->second.bytes;
+  }
+  return store_ ? store_->bytes_of(key) : 0;
 }
 
 void Results::insert(const Hash128& key, const SharedResult& result, bool in_store, bool stays) {

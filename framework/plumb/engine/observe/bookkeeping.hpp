@@ -59,6 +59,8 @@ class Bookkeeping {
   void step_ends(const std::string& path, int pass, double seconds);
   void pass_begins(const std::string& repeat, int pass, int at_most);
   void item(const ItemEvent& item);  ///< counts it and tells of it
+  /// All items of a step at once, known from an earlier run without a look at them.
+  void all_reused(const std::string& path, int pass, std::size_t items);
 
   void count(const std::string& path, std::string_view what, std::uint64_t n);
   void warn(const std::string& path,

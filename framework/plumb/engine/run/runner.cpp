@@ -76,7 +76,10 @@ class Runner {
     for (std::size_t place = 0; place < plan_.order.size(); ++place) {
       run_item(plan_.order[place]);
       for (std::size_t s = 0; s < runs_.size(); ++s)
-        if (last[s] <= place) runs_[s].reset();
+        if (last[s] <= place && runs_[s]) {
+          runs_[s]->remember();
+          runs_[s].reset();
+        }
       if (store_) store_->sync();
       if (admission_.bounded()) give_memory_back();
     }
@@ -123,8 +126,10 @@ class Runner {
     }
     const auto counted = books_.items_of(step.path);
     run->start();
+    if (runs_[index]) runs_[index]->remember();  // of the pass before, which nobody asks any more
     runs_[index] = run;
     if (store_) explain(index, *run, counted);
+    run->remember();
     collect(index, *run);
     if (keeping_[index] != Keeping::passing)
       books_.step_ends(
@@ -142,7 +147,7 @@ class Runner {
     const auto now = books_.items_of(step.path);
     one.made = now.first - counted.first;
     one.reused = now.second - counted.second;
-    const Facts facts = run.facts();
+    const Facts& facts = run.facts();
     const Facts before = store_->index()->facts(plan_.name, step.path, one.pass);
     one.why =
         before.empty() ? "this cache knows no earlier run of it" : first_difference(before, facts);

@@ -28,14 +28,15 @@ class RunCollection final : public Collection {
 }  // namespace
 
 /// The place of item k, and of what it joins.
-ItemPlace StepRun::place_of(std::size_t k) const {
-  if (!list_) return {k, 0, 0};
-  const auto [i, j] = list_.type->code->list->ends(list_.value.get(), k);
+ItemPlace StepRun::place_of(std::size_t k) {
+  const AnyValue& of = own_list();
+  if (!of) return {k, 0, 0};
+  const auto [i, j] = of.type->code->list->ends(of.value.get(), k);
   return {k, i, j};
 }
 
 /// Those of `parts` that item k is made of.
-std::pair<std::size_t, std::size_t> StepRun::parts_of(std::size_t k, const Source& parts) const {
+std::pair<std::size_t, std::size_t> StepRun::parts_of(std::size_t k, const Source& parts) {
   const ItemKind& kind = *plan_.description->items;
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     const Type& type = *plan_.description->inputs[p].type;
@@ -95,10 +96,10 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
 }
 
 /// What item k is seen of the value that an input is wired to.
-SeenPart StepRun::part_of(std::size_t port, std::size_t k) const {
+SeenPart StepRun::part_of(std::size_t port, std::size_t k) {
   const Source& source = inputs_[port].front();
   const AnyValue whole = plan_.description->lists_items(plan_.description->inputs[port])
-                             ? list_
+                             ? own_list()
                              : source.run->value(source.output);
   return step_.part(port, whole.value.get(), place_of(k));
 }
@@ -195,7 +196,7 @@ void StepRun::require_sound(const AnyValue& value, std::size_t output) const {
                 "; the step must not give that, whatever its input");
 }
 
-void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const {
+void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) {
   try {
     for (std::size_t o = 0; o < outputs.size(); ++o) {
       require_sound(outputs[o].one, o);
@@ -228,6 +229,7 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
         title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
   }
   check_outputs(outputs, k);
+  if (first) note(*said);
   if (first && state_.passed) state_.passed(*this, 0, k, *said);
   return outputs;
 }

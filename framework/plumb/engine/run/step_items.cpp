@@ -41,7 +41,7 @@ void StepRun::find_items() {
 }
 
 /// What an item joins (an edge's segments) is taken from the step's inputs by its place.
-void StepRun::require_ends() const {
+void StepRun::require_ends() {
   if (!list_) return;
   const std::size_t wanted = list_.type->code->list->ends_count(list_.value.get());
   for (std::size_t k = 0; k < items_; ++k)
@@ -79,8 +79,8 @@ void StepRun::adopt_items(std::vector<Hash128> keys, Source list) {
 }
 
 void StepRun::start_items() {
+  if (keeping_ == Keeping::passing) return ready();
   join();
-  if (keeping_ == Keeping::passing) return;
   state_.books.step_begins(plan_.path, state_.pass, items_);
   kept_keys_.resize(items_);
   pins_.resize(items_);
@@ -111,6 +111,7 @@ void StepRun::make_item(std::size_t k) {
                                  state_.admission.bounded() ? expected_bytes(k) : 0);
   StoredResult said;
   auto outputs = call(k, &said);
+  note(said);
   kept(kept_keys_[k], result_of(outputs, std::move(said)), pins_[k]);
   Stopwatch::item(item_name(k), state_.pass, false);
 }
@@ -178,6 +179,7 @@ void StepRun::settle(std::vector<Failed> failed) {
             [](const Failed& a, const Failed& b) { return a.item < b.item; });
   const bool all = failed.size() >= most_failures;
   if (plan_.on_error == OnError::drop) {
+    dropped_ = true;
     for (const Failed& one : failed) {
       state_.books.warn(plan_.path,
                         one.sentence + "; " + item_name(one.item) + " is dropped (on_error: drop)");

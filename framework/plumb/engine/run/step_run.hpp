@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,8 +51,12 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
           std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
 
-  /// Makes everything that is to be kept: the whole step, or all its items.
+  /// Makes everything that is to be kept, the whole step or all its items, unless an earlier run
+  /// left all of it.
   void start();
+  /// Remembers what was made for later runs. Asked after start(), with the facts; of what is made
+  /// when it is asked for, when nobody will ask any more.
+  void remember();
   /// In a worker: takes over what another process made and put into the store, by its keys.
   void adopt_items(std::vector<Hash128> keys, Source list);
   void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list);
@@ -66,27 +72,26 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   Keeping keeping() const { return keeping_; }
   const std::vector<std::vector<Source>>& inputs() const { return inputs_; }
   bool itemwise() const { return plan_.description->itemwise(); }  ///< one call an item
-  bool lazy() const;                            ///< has outputs that are made when asked for
-  std::size_t items() const { return items_; }  ///< calls, for an item-wise step
+  bool lazy() const;                               ///< has outputs that are made when asked for
+  std::size_t items() { return ready(), items_; }  ///< calls, for an item-wise step
   const std::vector<Hash128>& item_keys() const { return kept_keys_; }
   const Hash128& whole_key() const { return whole_key_; }
   const std::vector<std::vector<Hash128>>& whole_keys() const { return whole_keys_; }
-  const Source& list_source() const { return list_source_; }
+  const Source& list_source() { return ready(), list_source_; }
   /// "step 'coarse.matches' (match.fpfh_mutual), edge 3-4".
-  std::string title(std::size_t k) const;
-  std::string item_name(
-      std::size_t k) const;  ///< "edge 3-4"; empty for a step on whole collections
+  std::string title(std::size_t k);
+  std::string item_name(std::size_t k);  ///< "edge 3-4"; empty for a step on whole collections
   /// Asked after start(), with a store.
-  Facts facts();
+  const Facts& facts();
 
   /// How many values `output` has: 1 for a value of the whole pipeline.
-  std::size_t count(int output) const;
+  std::size_t count(int output);
   /// Value k of an output, made or fetched. Throws Error that names step and item.
   AnyValue value(int output, std::size_t k = 0);
   /// Changes whenever that value would.
   Hash128 key(int output, std::size_t k = 0);
   /// Of items that are listed (edges): the list that the values of this run belong to.
-  const AnyValue& list() const { return list_; }
+  const AnyValue& list();
   /// Whether an output has one value an item, and not one for the whole pipeline.
   bool per_item(int output) const {
     return itemwise() || plan_.description->outputs[output].emission != Emission::one;
@@ -116,17 +121,35 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
-  std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts) const;
-  ItemPlace place_of(std::size_t k) const;
-  SeenPart part_of(std::size_t port, std::size_t k) const;
+  std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts);
+  ItemPlace place_of(std::size_t k);
+  SeenPart part_of(std::size_t port, std::size_t k);
   std::size_t expected_bytes(std::size_t k);
   static std::uint64_t seed_of(const std::vector<PortInput>& inputs);
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
   void require_sound(const AnyValue& value, std::size_t output) const;
-  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
+  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k);
+  // step_recall.cpp: what an earlier run left
+  Hash128 find_recall_key() const;
+  bool recall();
+  bool fits(const Recalled& known) const;
+  bool all_in_store(const Recalled& known);
+  bool take_numbers(const std::vector<std::string>& bytes);
+  Source source_of_list();
+  std::vector<std::string> bytes_of_numbers();
+  bool made_when_asked() const { return lazy() || keeping_ == Keeping::passing; }
+  bool all_asked() const;
+  void note(const StoredResult& said);
+  /// Of what passes through and was recalled, finds the items when they are first asked for.
+  void ready() {
+    if (keeping_ == Keeping::passing) std::call_once(joined_, [this] { find_inputs(); });
+  }
+  void find_inputs();
+  /// As list(), asked while or after the inputs are found.
+  const AnyValue& own_list() { return recalled_ ? list() : list_; }
   // step_items.cpp: the items of an item-wise step
   void find_items();
-  void require_ends() const;
+  void require_ends();
   [[noreturn]] void refuse_counts(const std::string& one, std::size_t have,
                                   const std::string& other, std::size_t wanted) const;
   void start_items();
@@ -150,7 +173,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   const Hash128& key_of_call(std::size_t k) const {
     return itemwise() ? kept_keys_[k] : whole_key_;
   }
-  bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
+  bool first_asked(std::size_t output, std::size_t k);
   std::string misfit_of(const StoredResult& result) const;
   std::optional<std::size_t> values_of(std::size_t output) const;
   SharedResult find(const Hash128& key);
@@ -177,6 +200,17 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   SharedResult whole_pin_;       ///< of a step on whole collections, unless it may leave memory
   std::vector<LazyItems> lazy_;  ///< by output
   std::vector<std::vector<Hash128>> whole_keys_;
+  Hash128 recall_key_;
+  bool recalled_ = false;      ///< all its results are known from an earlier run, by their keys
+  bool said_in_full_ = false;  ///< what it counts was said already
+  bool dropped_ = false;       ///< an item failed and has an empty value
+  bool remembered_ = false;
+  std::vector<AnyValue> numbers_;  ///< by output: recalled values with numbers
+  Facts facts_;
+  std::once_flag joined_, listed_;
+  std::mutex said_mutex_;
+  std::map<std::string, std::uint64_t> counts_;
+  std::set<std::string> warnings_;
   std::vector<std::unique_ptr<std::atomic<bool>[]>>
       asked_;  ///< of what is made anew whenever asked for: by output, then item
   std::atomic<std::size_t> passed_bytes_ = 0;  ///< the biggest value that passed so far

@@ -35,6 +35,7 @@ void StepRun::start_whole() {
     } else {
       StoredResult said;
       auto outputs = call(0, &said);
+      note(said);
       take_whole(std::move(outputs), std::move(said));
       Stopwatch::item("", state_.pass, false);
     }
@@ -148,7 +149,7 @@ const Source* StepRun::source_over(std::size_t output) const {
 /// The result, back from the store if it left memory; made again if it is gone from there.
 SharedResult StepRun::whole() {
   if (whole_pin_) return whole_pin_;
-  if (auto found = state_.results.find(whole_key_)) return found;
+  if (auto found = find(whole_key_)) return found;
   if (inputs_.empty() && !plan_.description->inputs.empty())
     throw NestedError(title(0) + ": its result is gone from the cache; run again, it is made anew");
   StoredResult said;
