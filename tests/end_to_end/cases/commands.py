@@ -16,7 +16,7 @@ def test_help_names_every_command_and_the_exit_codes(folder):
 
 
 def test_each_command_has_help_with_its_options(folder):
-    expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
+    expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column", "--plan"],
                 "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "list": ["--licences"], "inspect": ["--json"], "schema": ["--output"],
                 "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
                 "compare": ["--variant", "--input", "--metric", "--time", "--json", "--cache-dir"], "cache": ["verify", "prune", "--cache-dir", "Example"]}
@@ -68,6 +68,43 @@ def test_the_plugin_path_serves_before_and_behind_the_command(folder):
 
 def test_check_of_a_good_pipeline_shows_the_passes_of_each_loop(folder):
     plumb("check", CASCADE, *INPUT).has("good", "max_correspondence_distance", "4 m", "1.5 m")
+
+
+def plan_of(*arguments):
+    """The rows of `check --plan` by step or repeat, each as its columns, in their order; and what was said."""
+    said = plumb("check", "--plan", *arguments, *INPUT).has("good")
+    table = said.out[said.out.index("group "):said.out.index("\nresults: ")].splitlines()
+    rows = [re.split(r" {2,}", line) for line in table]
+    assert rows[0] == ["group", "step", "one call sees", "results", "until", "why"], said
+    return {row[1]: row for row in rows[1:]}, said
+
+
+def test_check_shows_the_plan_of_a_run_step_by_step(folder):
+    rows, said = plan_of(CASCADE)
+    steps = [row for row in rows.values() if len(row) > 2]
+    assert len(steps) == int(re.search(r"good, (\d+) steps", said.out)[1]) and all(len(row) == 6 for row in steps), said
+    for row in (["2", "ranged", "one frame of sequence", "passing", "map", "frames are transient, made for each of 2 inputs"],
+                ["3", "merged", "one segment of ranges", "passing", "segments", "large, and only denoised takes them"],
+                ["6", "segments", "one segment of ranges", "kept", "match_rmse", "large, but 9 inputs take them"],
+                ["coarse/2", "coarse.near", "one edge of neighbours", "remembered", "coarse", "in a repeat"],
+                ["14", "drift.solved", "whole collections", "remembered", "metrics", "solve.pose_graph occurs 3 times"]):
+        assert rows[row[1]] == row, said
+    assert rows["coarse: 3 to 4 passes"][0] == "16" and rows["map"][4] == "end of run", said
+    order = list(rows)
+    assert order.index("drift.solved") < order.index("coarse: 3 to 4 passes") < order.index("coarse.matches") < order.index("match_rmse"), said
+    said.has("\n  7: esf, fpfh, drift.overlapping\n")
+    assert said.out.count("memory: known after a first run") == 1, said
+    assert "transient" not in plumb("check", CASCADE, *INPUT).out
+
+
+def test_the_plan_follows_the_pipeline(folder):
+    file = folder / "changed.yaml"
+    file.write_text(f"plumb: 1\nname: changed\nextends: {CASCADE}\nremove: [map, denoised]\nreplace:\n"
+                    "  voxels: {use: filter.voxel_grid, from: merged, with: {voxel_size: $voxel_size}}\n  esf: {use: describe.esf, from: merged}\n")
+    rows, said = plan_of(file)
+    assert rows["ranged"][3:] == ["passing", "merged", "frames are transient"], said
+    assert rows["merged"][3:] == ["kept", "esf", "large, but 2 inputs take them"], said
+    assert rows["voxels"][3:] == ["passing", "segments", "large, and only segments takes them"], said
 
 
 def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):

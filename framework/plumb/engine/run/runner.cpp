@@ -33,7 +33,7 @@ class Runner {
         admission_(memory_for_calls(options)),
         executor_(options.executor),
         store_(options.store),
-        keeping_(keeping_of(plan)),
+        lifetimes_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
         numbers_(plan.steps.size()),
@@ -119,7 +119,7 @@ class Runner {
     std::shared_ptr<StepRun> run;
     try {
       run = std::make_shared<StepRun>(step, *steps_[index], values, std::move(inputs),
-                                      keeping_[index],
+                                      lifetimes_[index].keeping,
                                       RunState{books_, results_, admission_, executor_, pass_});
     } catch (const Error& e) {
       throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
@@ -131,7 +131,7 @@ class Runner {
     if (store_) explain(index, *run, counted);
     run->remember();
     collect(index, *run);
-    if (keeping_[index] != Keeping::passing)
+    if (lifetimes_[index].keeping != Keeping::passing)
       books_.step_ends(
           step.path, pass_,
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
@@ -143,7 +143,7 @@ class Runner {
     Explained one;
     one.path = step.path;
     one.pass = pass_;
-    one.passes = keeping_[index] == Keeping::passing;
+    one.passes = lifetimes_[index].keeping == Keeping::passing;
     const auto now = books_.items_of(step.path);
     one.made = now.first - counted.first;
     one.reused = now.second - counted.second;
@@ -222,7 +222,7 @@ class Runner {
   Admission admission_;
   Executor* executor_;
   Store* store_;
-  std::vector<Keeping> keeping_;
+  std::vector<Lifetime> lifetimes_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
   std::vector<std::vector<std::shared_ptr<const Document>>> documents_;
