@@ -2,7 +2,7 @@
 import re
 import threading
 
-from plumb_test import CASCADE, WRONG_INPUT, files_of, plumb, refused, sequence
+from plumb_test import CASCADE, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused, sequence
 
 FAST = ["--set", "ranges.frames=10"]
 
