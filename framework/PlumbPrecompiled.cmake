@@ -37,7 +37,7 @@ endfunction()
 
 # plumb_precompiled_test(TARGET): a test program. plumb_precompiled_core_test(TARGET): one of the core, without Eigen.
 function(plumb_precompiled_test target)
-  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_kernel" ${PLUMB_PRECOMPILED_SLAM})
+  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_arch" ${PLUMB_PRECOMPILED_SLAM})
 endfunction()
 function(plumb_precompiled_core_test target)
   plumb_precompiled_test_by(plumb_precompiled_for_core_tests ${target} plumb)
