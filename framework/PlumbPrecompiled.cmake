@@ -3,6 +3,7 @@
 set(PLUMB_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <set> <sstream>
                       <string> <string_view> <unordered_map> <variant> <vector>)
 set(PLUMB_PRECOMPILED_SLAM <Eigen/Core> <Eigen/Geometry>)
+set(PLUMB_PRECOMPILED_SDK ${CMAKE_SOURCE_DIR}/framework/plumb/plugin/module.hpp ${CMAKE_SOURCE_DIR}/framework/plumb/slam/step.hpp)
 
 # plumb_precompiled_by(OWNER LIBRARIES HEADER...): a target from which others that link the LIBRARIES, a list, take its precompiled headers.
 function(plumb_precompiled_by owner libraries)
@@ -19,7 +20,8 @@ endfunction()
 # plumb_precompiled_step(TARGET): objects of a module, of the simulator, of a command's library.
 function(plumb_precompiled_step target)
   if(NOT TARGET plumb_precompiled_for_steps)
-    plumb_precompiled_by(plumb_precompiled_for_steps "plumb_slam;plumb_kernel" ${PLUMB_PRECOMPILED} ${PLUMB_PRECOMPILED_SLAM})
+    plumb_precompiled_by(plumb_precompiled_for_steps "plumb_slam;plumb_kernel" ${PLUMB_PRECOMPILED} ${PLUMB_PRECOMPILED_SLAM}
+                         ${PLUMB_PRECOMPILED_SDK})
   endif()
   target_precompile_headers(${target} REUSE_FROM plumb_precompiled_for_steps)
 endfunction()
@@ -37,7 +39,7 @@ endfunction()
 
 # plumb_precompiled_test(TARGET): a test program. plumb_precompiled_core_test(TARGET): one of the core, without Eigen.
 function(plumb_precompiled_test target)
-  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_arch" ${PLUMB_PRECOMPILED_SLAM})
+  plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_arch" ${PLUMB_PRECOMPILED_SLAM} ${PLUMB_PRECOMPILED_SDK})
 endfunction()
 function(plumb_precompiled_core_test target)
   plumb_precompiled_test_by(plumb_precompiled_for_core_tests ${target} plumb)

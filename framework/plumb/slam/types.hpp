@@ -143,4 +143,22 @@ struct TypeTraits<Metrics> : detail::SlamTraits<Metrics> {
   static const std::vector<Number>& numbers(const Metrics& metrics) { return metrics.numbers; }
 };
 
+// Their code is compiled once, in libplumb_slam, and not by everybody who includes this.
+#define PLUMB_TYPE_IN_LIBRARY(T) \
+  extern template __attribute__((visibility("default"))) const Type& type_of<T>();
+PLUMB_TYPE_IN_LIBRARY(Trajectory)
+PLUMB_TYPE_IN_LIBRARY(Frame)
+PLUMB_TYPE_IN_LIBRARY(FrameRange)
+PLUMB_TYPE_IN_LIBRARY(Segment)
+PLUMB_TYPE_IN_LIBRARY(Descriptor)
+PLUMB_TYPE_IN_LIBRARY(Features)
+PLUMB_TYPE_IN_LIBRARY(Edges)
+PLUMB_TYPE_IN_LIBRARY(Matches)
+PLUMB_TYPE_IN_LIBRARY(Registration)
+PLUMB_TYPE_IN_LIBRARY(Constraints)
+PLUMB_TYPE_IN_LIBRARY(Poses)
+PLUMB_TYPE_IN_LIBRARY(GridMap)
+PLUMB_TYPE_IN_LIBRARY(Metrics)
+#undef PLUMB_TYPE_IN_LIBRARY
+
 }  // namespace plumb
