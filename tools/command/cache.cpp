@@ -10,7 +10,7 @@
 
 #include "command.hpp"
 #include "plumb/data/amount.hpp"
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/store/index.hpp"
 #include "plumb/store/upkeep.hpp"
 #include "store_option.hpp"

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
@@ -209,7 +210,7 @@ class Runner {
     loops_.push_back({repeat.path, judge.passes(), why});
     const bool exhausted = !repeat.conditions.empty() && why.starts_with("at_most");
     const std::string sentence =
-        repeat.path + " ended after " + std::to_string(judge.passes()) + " passes: " + why;
+        repeat.path + " ended after " + counted(judge.passes(), "passes") + ": " + why;
     if (exhausted && repeat.if_exhausted == Exhausted::fail)
       throw Error(repeat.origin.text() + ": " + sentence +
                   "; allow more passes (at_most) or ask for less (until)");

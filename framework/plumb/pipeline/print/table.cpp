@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
+
 namespace plumb {
 namespace {
 
@@ -11,10 +13,8 @@ std::string aligned(const std::string& text, std::size_t width) {
 
 std::string heading(const PlannedRepeat& repeat) {
   std::string text = repeat.path + ": ";
-  if (repeat.conditions.empty())
-    return text + std::to_string(repeat.at_most) + (repeat.at_most == 1 ? " pass" : " passes");
-  text +=
-      std::to_string(repeat.at_least) + " to " + std::to_string(repeat.at_most) + " passes, until ";
+  if (repeat.conditions.empty()) return text + counted(repeat.at_most, "passes");
+  text += std::to_string(repeat.at_least) + " to " + counted(repeat.at_most, "passes") + ", until ";
   for (std::size_t k = 0; k < repeat.conditions.size(); ++k)
     text += (k == 0 ? "" : repeat.all ? " and " : " or ") + repeat.conditions[k].text;
   return text;

@@ -168,7 +168,7 @@ TEST(Evaluation, RefusesWrongInputsWithASentence) {
   EXPECT_THAT(said(), AllOf(HasSubstr("a.tum"), HasSubstr("none of its stamps")));
   folder.write("frames/0.pcd", pcd_bytes({}));
   folder.write("a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
-  EXPECT_THAT(said(true), HasSubstr("1 frames for 2 true poses"));
+  EXPECT_THAT(said(true), HasSubstr("1 frame for 2 true poses"));
   folder.write("frames.txt", "frames/0.pcd\nframes/1.pcd\n");
   EXPECT_THAT(said(true), HasSubstr("frames.txt:2: frame 'frames/1.pcd' is missing"));
 }
