@@ -1,12 +1,12 @@
 /// What is asked of the index and written to it. How it is opened, checked and closed:
-/// index_life.cpp.
+/// index_file.cpp.
 #include "plumb/store/index.hpp"
 
 #include <chrono>
 
 #include "plumb/data/archive.hpp"
 #include "plumb/store/blob_file.hpp"
-#include "plumb/store/database.hpp"
+#include "plumb/store/index_file.hpp"
 #include "plumb/store/index_tables.hpp"
 
 namespace plumb {
@@ -50,26 +50,12 @@ Recalled recalled_of(const std::string& bytes) {
 
 }  // namespace
 
-Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
-  open();
-}
-Index::~Index() { close(); }
+Index::Index(std::filesystem::path store, Whose whose)
+    : store_(std::move(store)), file_(std::make_unique<IndexFile>(store_, whose)) {}
+Index::~Index() { flush(); }
 
-/// Runs what asks the database. When that is found to be damaged it is made anew and asked again;
-/// what else is wrong ends its use.
-template <class Action>
-void Index::with_database(Action action) {
-  const std::lock_guard lock(database_mutex_);
-  for (int attempt = 0; database_ && attempt < 2; ++attempt) {
-    try {
-      return action(*database_);
-    } catch (const DatabaseError& e) {
-      if (e.cause() == DatabaseError::Cause::busy) return database_->wait_no_more();
-      if (e.cause() == DatabaseError::Cause::system) return fail(e.what());
-      mend_while_open(e.what());
-    }
-  }
-}
+std::string Index::rebuilt() const { return file_->rebuilt(); }
+std::string Index::fault() const { return file_->fault(); }
 
 void Index::made(const Hash128& key, std::string_view step, std::uint64_t bytes) {
   const std::lock_guard lock(notes_mutex_);
@@ -95,7 +81,7 @@ std::vector<Fact> Index::facts(const std::string& pipeline, const std::string& p
       return at->second;
   }
   std::vector<Fact> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT facts, sum IS row_sum(pipeline, path, pass, facts) FROM facts WHERE "
                   "pipeline = ?1 AND path = ?2 AND pass = ?3");
@@ -122,7 +108,7 @@ std::optional<Recalled> Index::recalled(const Hash128& key) {
     if (const auto at = notes_.recalled.find(key); at != notes_.recalled.end()) return at->second;
   }
   std::optional<Recalled> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT recalled, sum IS row_sum(key, recalled, used) FROM recalled WHERE key = "
                   "?1");
@@ -143,7 +129,7 @@ void Index::set_recalled(const Hash128& key, Recalled recalled) {
 
 void Index::settle_recalled(std::int64_t oldest) {
   flush();
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement all(database,
                   "SELECT key, recalled, used, sum IS row_sum(key, recalled, used) FROM recalled");
     Statement known(database, "SELECT 1 FROM results WHERE key = ?1");
@@ -179,7 +165,7 @@ std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t s
                  : std::nullopt;
   }
   std::optional<Hash128> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT size, mtime_ns, hash, sum IS row_sum(path, size, mtime_ns, hash) FROM "
                   "file_hashes WHERE path = ?1");
@@ -205,7 +191,7 @@ void Index::flush() {
   }
   if (notes.empty()) return;
   bool written = false;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Transaction transaction(database);
     write(database, notes);
     transaction.commit();
@@ -264,7 +250,7 @@ void Index::write(Database& database, const Notes& notes) {
 
 void Index::check() {
   flush();
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     if (const std::string why = damage_in(database); !why.empty())
       throw DatabaseError(DatabaseError::Cause::damage, why);
     follow_files(database, store_);
@@ -274,7 +260,7 @@ void Index::check() {
 std::vector<IndexRow> Index::rows() {
   flush();
   std::vector<IndexRow> all;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     std::vector<IndexRow> rows;
     Statement ask(database,
                   "SELECT key, step, bytes, made, used, sum IS row_sum(key, step, bytes, made, "
