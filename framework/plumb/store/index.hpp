@@ -86,7 +86,8 @@ class Index {
   std::optional<Recalled> recalled(const Hash128& key);
   void set_recalled(const Hash128& key, Recalled recalled);
   /// Counts the results of what was recalled as used when it was, and forgets what was last
-  /// recalled before `oldest` [ms since 1970] or has no result left.
+  /// recalled before `oldest` [ms since 1970], what has no result left, and, of steps that have no
+  /// results of their own, what was last recalled a day before any result that is left was used.
   void settle_recalled(std::int64_t oldest);
 
   /// The content hash of an input file that had this size and time of change [ns]; none when it is
@@ -101,6 +102,8 @@ class Index {
   /// Looks at every row, and gives rows to results that have none, and takes those away that have
   /// no result.
   void check();
+  /// What all results take, by one question to the database.
+  std::uint64_t bytes();
   /// All results, least recently used first.
   std::vector<IndexRow> rows();
 

@@ -9,6 +9,7 @@
 #include "plumb/engine/run/parallel.hpp"
 #include "plumb/engine/run/step_run.hpp"
 #include "plumb/store/index.hpp"
+#include "plumb/store/size_bound.hpp"
 
 namespace plumb {
 namespace {
@@ -34,6 +35,7 @@ class Runner {
         admission_(memory_for_calls(options)),
         executor_(options.executor),
         store_(options.store),
+        bound_(options.store_bound),
         keeping_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
@@ -87,10 +89,9 @@ class Runner {
   }
 
   void run_item(const PlannedItem& item) {
-    if (item.step >= 0)
-      run_step(item.step);
-    else
-      run_repeat(item.repeat);
+    if (item.step < 0) return run_repeat(item.repeat);
+    run_step(item.step);
+    if (bound_) bound_->after_step();
   }
 
   Source source_of(const Wire& wire) const {
@@ -223,6 +224,7 @@ class Runner {
   Admission admission_;
   Executor* executor_;
   Store* store_;
+  SizeBound* bound_;
   std::vector<Keeping> keeping_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
