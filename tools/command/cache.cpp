@@ -8,9 +8,10 @@
 #include <limits>
 #include <map>
 
+#include "cache_size.hpp"
 #include "command.hpp"
 #include "plumb/data/amount.hpp"
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/store/index.hpp"
 #include "plumb/store/upkeep.hpp"
 #include "store_option.hpp"
@@ -50,6 +51,7 @@ std::unique_ptr<Store> existing(const Options& options) {
 }
 
 void show(const Options& options) {
+  CacheSize().require_one_meaning(options.store);
   const auto store = existing(options);
   if (!store) return;
   struct Sum {
@@ -66,7 +68,7 @@ void show(const Options& options) {
   for (const IndexRow& row : store->index()->rows()) all.add(row), by_step[row.step].add(row);
   say_faults(*store);
   std::cout << store->folder().string() << ": " << results(all.results) << ", "
-            << text_of_bytes(all.bytes) << "\n";
+            << text_of_bytes(all.bytes) << "; bound: " << CacheSize().limit(*store).shown() << "\n";
   if (all.results == 0) return;
   std::vector<std::pair<std::string, Sum>> lines(by_step.begin(), by_step.end());
   std::ranges::stable_sort(
@@ -126,8 +128,9 @@ void add_cache(CLI::App& app) {
   options->store.add_to(*command);
   command->require_subcommand(0, 1);
   command->footer(
-      "Without a sub-command: number and size of the results by step. All of it is safe while runs "
-      "use the cache; what is removed is made again.\n"
+      "Without a sub-command: number and size of the results by step, and the bound that runs hold "
+      "(run --cache-size, PLUMB_CACHE_SIZE). All of it is safe while runs use the cache; what is "
+      "removed is made again.\n"
       "Example: plumb cache prune --older 30d --size 10GiB");
   auto* check = command->add_subcommand(
       "verify", "Checks every result and the index, and removes what is damaged");

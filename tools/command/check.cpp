@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "pipeline_options.hpp"
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/engine/plan/plan_text.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/print/graph.hpp"

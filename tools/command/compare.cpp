@@ -4,6 +4,7 @@
 #include <iostream>
 #include <set>
 
+#include "cache_size.hpp"
 #include "console.hpp"
 #include "exit_guard.hpp"
 #include "interrupt.hpp"
@@ -34,6 +35,7 @@ struct Options {
   unsigned threads = 0;
   bool quiet = false, json = false;
   StoreOption store{.otherwise = "none"};
+  CacheSize cache_size;
 };
 
 /// A pipeline with what is laid over it for one input, ready to run.
@@ -180,25 +182,35 @@ std::vector<Run> runs_of(const Variant& variant, const Options& options, const R
   return runs;
 }
 
-/// Makes one run and fills its folder; `settled` becomes false when that is not as it should be.
-RunResult result_of(Run& run, const Options& options, const Registry& steps, Store* store,
-                    bool& settled) {
+/// What all runs share.
+struct Shared {
+  const Options& options;
+  const Registry& steps;
+  Store* store;
+  SizeBound* bound;
+  bool settled = true;  ///< what was put in place is as it should be
+};
+
+/// Makes one run and fills its folder.
+RunResult result_of(Run& run, Shared& shared) {
   Console console(true, "");
   RunOptions run_options;
-  run_options.threads = options.threads;
-  run_options.store = store;
+  run_options.threads = shared.options.threads;
+  run_options.store = shared.store;
+  run_options.store_bound = shared.bound;
   const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
-  RunResult result = run_plan(run.plan, steps, run_options, console);
+  RunResult result = run_plan(run.plan, shared.steps, run_options, console);
   if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
       !unsettled.empty()) {
     std::cerr << "plumb: " << unsettled << "\n";
-    settled = false;
+    shared.settled = false;
   }
   return result;
 }
 
 void compare(const Options& options) {
   options.store.require_one_meaning();
+  options.cache_size.require_one_meaning(options.store);
   const Registry steps = installed_steps();
   const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
   say_warnings(pipeline);
@@ -232,13 +244,14 @@ void compare(const Options& options) {
   });
 
   const ExitGuard while_running;
-  bool settled = true;
+  BoundedCache cache(options.cache_size, store.get());
+  Shared shared{options, steps, store.get(), cache.bound()};
   std::vector<std::vector<std::vector<Number>>> figures(variants.size());
   for (std::size_t k = 0; k < input_names.size(); ++k)
     for (std::size_t v = 0; v < variants.size(); ++v) {
       Run& run = runs[v][k];
       try {
-        const RunResult result = result_of(run, options, steps, store.get(), settled);
+        const RunResult result = result_of(run, shared);
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::cerr << variants[v].name << " on " << input_names[k] << ": "
@@ -249,10 +262,11 @@ void compare(const Options& options) {
         throw CLI::RuntimeError(exit_failed);
       }
     }
+  cache.end(options.quiet);
   if (store) say_faults(*store);
   const Comparison comparison = plumb::compare(variant_names, input_names, figures);
   std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
-  if (!settled) throw CLI::RuntimeError(exit_unsettled);
+  if (!shared.settled) throw CLI::RuntimeError(exit_unsettled);
 }
 
 /// What `--variant` takes; the name becomes a folder's.
@@ -314,6 +328,7 @@ void add_compare(CLI::App& app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   options->store.add_to(*command);
+  options->cache_size.add_to(*command);
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "command.hpp"
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 
 namespace plumb::command {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "plumb/data/amount.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/remote/slurm/slurm_executor.hpp"
 #include "usage.hpp"
 #include "worker_command.hpp"

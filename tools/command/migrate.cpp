@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "replaced_file.hpp"
 
 namespace plumb::command {

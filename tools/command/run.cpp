@@ -3,15 +3,16 @@
 #include <iostream>
 #include <memory>
 
+#include "cache_size.hpp"
 #include "console.hpp"
 #include "executor_options.hpp"
 #include "exit_guard.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/amount.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/observe/event_file.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/output_folder.hpp"
@@ -29,6 +30,7 @@ struct Options {
   PipelineOptions pipeline;
   std::filesystem::path output, locked, log, events, trace;
   StoreOption store;
+  CacheSize cache_size;
   ExecutorOptions executor;
   Untrusted untrusted;
   std::string memory;
@@ -147,6 +149,7 @@ void report(const Options& options, const Plan& plan, const RunResult& result, c
 
 void run(Options& options) {
   options.store.require_one_meaning();
+  options.cache_size.require_one_meaning(options.store);
   const std::uint64_t memory = memory_of_text(options.memory);
   options.executor.require_one_meaning(options.threads, memory);
   if (options.store.none()) require_store(options, nullptr);
@@ -167,6 +170,7 @@ void run(Options& options) {
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
+  BoundedCache cache(options.cache_size, store.get());
   const auto executor = options.executor.make(options.threads, memory, options.verify_inputs,
                                               options.store.refresh, store.get());
   if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
@@ -181,6 +185,7 @@ void run(Options& options) {
     RunOptions run_options;
     run_options.threads = options.threads;
     run_options.store = store.get(), run_options.fresh = options.store.refresh;
+    run_options.store_bound = cache.bound();
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
     if (const std::string changed = changed_input(record); !changed.empty())
@@ -189,6 +194,7 @@ void run(Options& options) {
           "run it again (with --refresh where files got back their former sizes and times)");
     unsettled = folder.fill(std::move(record), result);
     listeners.say_of_files(options.log);
+    cache.end(options.quiet);
     report(options, plan, result, store.get());
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
@@ -253,6 +259,7 @@ void add_run(CLI::App& app) {
       ->capture_default_str();
   options->store.add_to(*command);
   options->store.add_usage_to(*command);
+  options->cache_size.add_to(*command);
   command->add_flag("--explain", options->explain,
                     "Say of each step whether its results were reused, and the first thing that "
                     "differs from the last run");

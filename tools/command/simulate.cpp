@@ -18,8 +18,8 @@
 
 #include "command/command.hpp"
 #include "interrupt.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
 #include "simulate/names.hpp"

@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/slam/report/made_metrics.hpp"
 #include "plumb/slam/report/stages.hpp"
 #include "plumb/slam/report/weakness.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/unit.hpp"
 #include "simulate/drift.hpp"
@@ -162,7 +163,7 @@ std::vector<char> lost_scans(const IndoorDrive& drive, const LostScans& options)
   const double part = (drive.stamps.back() - 2 * margin) / static_cast<double>(options.stretches);
   if (part < options.stretch + margin)
     throw Error("scene: the drive takes " + written(drive.stamps.back(), Quantity::time) +
-                ", too short for " + std::to_string(options.stretches) + " stretches of " +
+                ", too short for " + counted(options.stretches, "stretches") + " of " +
                 written(options.stretch, Quantity::time) +
                 " without scans; ask for fewer or shorter ones");
   Random random(mix(options.seed, 24));

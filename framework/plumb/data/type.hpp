@@ -3,6 +3,7 @@
 /// and read. Any module may define one.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,6 +62,17 @@ const Type& define_type(const Type& type);
 
 /// The type with this name, or null.
 const Type* find_type(std::string_view name);
+
+/// A type whose kind is meant by its name, as long as that is not registered.
+struct TypeDraft {
+  Type type = {};                        ///< its kind is not looked at
+  std::optional<std::string> kind = {};  ///< none: one value for the whole pipeline
+};
+
+/// Registers kinds and types together, as define_kind and define_type do; or, with an Error, none
+/// of them: one is there already and is another one, or a type is of a kind that is neither there
+/// nor among these.
+void define_together(const std::vector<ItemKind>& kinds, const std::vector<TypeDraft>& types);
 
 /// How a C++ type becomes a type of wires. A specialisation beside the type has
 ///   static constexpr const char* name;           registered: "Segment"

@@ -253,5 +253,33 @@ TEST(AnyValue, HasTheHashOfItsContent) {
   for (const toy::Segment& other : others) EXPECT_NE(any_value(other).hash(), hash);
 }
 
+TEST(Type, IsDefinedTogetherWithItsKind) {
+  const std::vector<ItemKind> kinds = {{.name = "test.bay", .parts = "frame"}};
+  const std::vector<TypeDraft> types = {{{.name = "test.Bay", .layout = "8/8"}, "test.bay"},
+                                        {{.name = "test.Bays"}, {}}};
+  define_together(kinds, types);
+  ASSERT_NE(find_kind("test.bay"), nullptr);
+  EXPECT_EQ(find_type("test.Bay")->kind, find_kind("test.bay"));
+  EXPECT_EQ(find_type("test.Bays")->kind, nullptr);
+  const Type* first = find_type("test.Bay");
+  define_together(kinds, types);
+  EXPECT_EQ(find_type("test.Bay"), first);
+}
+
+TEST(Type, IsNotDefinedWhereOneBesideItContradicts) {
+  define_type({.name = "test.Old"});
+  EXPECT_THAT(refusal([] {
+                define_together({{.name = "test.stray"}}, {{{.name = "test.Stray"}, "test.stray"},
+                                                           {{.name = "test.Old"}, "test.stray"}});
+              }),
+              HasSubstr("one for the whole pipeline there and one per test.stray here"));
+  EXPECT_THAT(refusal([] {
+                define_together({}, {{{.name = "test.Stray"}, "test.stray"}});
+              }),
+              HasSubstr("item kind 'test.stray' is named and not defined"));
+  EXPECT_EQ(find_kind("test.stray"), nullptr);
+  EXPECT_EQ(find_type("test.Stray"), nullptr);
+}
+
 }  // namespace
 }  // namespace plumb

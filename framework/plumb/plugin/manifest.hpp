@@ -19,7 +19,8 @@ struct Manifest {
 /// The manifest's text: JSON, one step after another, keys in a fixed order.
 std::string manifest_text(const Manifest& manifest);
 
-/// Reads it back. Throws Error that says what is wrong; `file` names it in the sentence.
+/// Reads it back, and registers the kinds and types that it defines. Throws Error that says what is
+/// wrong, and registers nothing then; `file` names it in the sentence.
 Manifest read_manifest(const std::string& text, const std::string& file);
 
 /// What a step declares, as JSON text.

@@ -181,6 +181,73 @@ TEST(Manifest, ThatNamesWhatIsNotDefinedIsRefused) {
         HasSubstr("type 'test.Shard' is named and not defined"));
 }
 
+/// A manifest that also defines the kind test.lot and the type test.Lot of it, and a change that
+/// makes it one to be refused.
+template <class Change>
+std::string with_lots(Change change) {
+  return changed([&](json& all) {
+    json kind = named(all["kinds"], "segment"), type = named(all["types"], "Segment");
+    kind["name"] = type["items"] = "test.lot";
+    type["name"] = "test.Lot";
+    all["kinds"].insert(all["kinds"].begin(), kind);
+    all["types"].insert(all["types"].begin(), type);
+    change(all);
+  });
+}
+
+TEST(Manifest, ThatIsRefusedLeavesNothingBehind) {
+  const std::pair<const char*, std::string> refused[] = {
+      {"is defined twice, and not alike: its version",
+       with_lots([](json& all) { named(all["types"], "Segment")["version"] = 2; })},
+      {"item kind 'segment' is defined twice",
+       with_lots([](json& all) { named(all["kinds"], "segment")["ends"] = "edge"; })},
+      {"type 'test.Lot' is defined twice", with_lots([](json& all) {
+         all["types"].push_back(named(all["types"], "test.Lot"));
+         all["types"].back()["layout"] = "2/2";
+       })},
+      {"item kind 'test.lot' is defined twice", with_lots([](json& all) {
+         all["kinds"].push_back(named(all["kinds"], "test.lot"));
+         all["kinds"].back()["transient"] = true;
+       })},
+      {"item kind 'test.shard' is named and not defined",
+       with_lots([](json& all) { named(all["types"], "Metrics")["items"] = "test.shard"; })},
+      {"type 'test.Shard' is named and not defined",
+       with_lots([](json& all) { all["steps"][0]["outputs"][0]["type"] = "test.Shard"; })},
+      {"'all' is unknown here",
+       with_lots([](json& all) { all["steps"][0]["inputs"][0]["access"] = "all"; })},
+      {"a whole number",
+       with_lots([](json& all) { all["steps"][0]["parameters"][0]["default"] = 5.5; })},
+      {"'summary' not found", with_lots([](json& all) { all["steps"][0].erase("summary"); })},
+      {"'steps' not found", with_lots([](json& all) { all.erase("steps"); })}};
+  for (const auto& [told, text] : refused) {
+    EXPECT_THAT(refusal_of(text), HasSubstr(told));
+    EXPECT_EQ(find_kind("test.lot"), nullptr) << told;
+    EXPECT_EQ(find_type("test.Lot"), nullptr) << told;
+  }
+  EXPECT_EQ(refusal_of(with_lots([](json&) {})), "");
+  EXPECT_EQ(find_type("test.Lot")->kind, find_kind("test.lot"));
+}
+
+TEST(Manifest, MayDefineWhatAnotherDefines) {
+  const auto defining = [](const char* layout, const std::string& more) {
+    return changed([&](json& all) {
+      for (const std::string& name : {std::string("test.Shared"), more}) {
+        all["types"].push_back(named(all["types"], "Metrics"));
+        all["types"].back()["name"] = name;
+        all["types"].back()["layout"] = layout;
+      }
+    });
+  };
+  EXPECT_EQ(refusal_of(defining("8/8", "test.First")), "");
+  const Type* shared = find_type("test.Shared");
+  EXPECT_EQ(refusal_of(defining("8/8", "test.Second")), "");
+  EXPECT_EQ(find_type("test.Shared"), shared);
+  EXPECT_NE(find_type("test.Second"), nullptr);
+  EXPECT_THAT(refusal_of(defining("4/4", "test.Third")),
+              HasSubstr("its layout in memory is 8/8 there and 4/4 here"));
+  EXPECT_EQ(find_type("test.Third"), nullptr);
+}
+
 TEST(Manifest, OfAnotherAbiIsReadNoFurther) {
   const std::string text = changed([](json& all) {
     all["abi"] = "plumb-sdk 0";

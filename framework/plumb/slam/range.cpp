@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
 namespace plumb {
@@ -10,7 +11,7 @@ FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t
   if (first >= end || end > trajectory.size())
     throw Error("frames " + std::to_string(first) + " to " + std::to_string(end) +
                 " (not included) are not a range of a trajectory of " +
-                std::to_string(trajectory.size()) + " poses");
+                counted(trajectory.size(), "poses"));
   constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
   if (end - first > most)
     throw Error("the segment from frame " + std::to_string(first) + " to frame " +

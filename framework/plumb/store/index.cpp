@@ -1,75 +1,22 @@
-/// What is asked of the index and written to it. How it is opened, checked and closed:
-/// index_life.cpp.
+/// What is asked of the index and written to it. What it knows of whole steps: index_recalled.cpp;
+/// how it is opened, checked and closed: index_file.cpp.
 #include "plumb/store/index.hpp"
 
-#include <chrono>
+#include <algorithm>
 
-#include "plumb/data/archive.hpp"
 #include "plumb/store/blob_file.hpp"
-#include "plumb/store/database.hpp"
+#include "plumb/store/index_file.hpp"
+#include "plumb/store/index_rows.hpp"
 #include "plumb/store/index_tables.hpp"
 
 namespace plumb {
-namespace {
 
-std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
+Index::Index(std::filesystem::path store, Whose whose)
+    : store_(std::move(store)), file_(std::make_unique<IndexFile>(store_, whose)) {}
+Index::~Index() { flush(); }
 
-[[noreturn]] void refuse_row(const char* table) {
-  throw DatabaseError(DatabaseError::Cause::damage,
-                      std::string("a row of its table '") + table + "' is not as it was written");
-}
-
-}  // namespace
-
-template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Fact>
-void fields(Archive& a, T& fact) { a(fact.name, fact.value); }
-
-template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, CountOf>
-void fields(Archive& a, T& count) { a(count.what, count.n); }
-template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Recalled>
-void fields(Archive& a, T& r) {
-  a(r.items, r.whole, r.values, r.numbers, r.counts, r.warnings, r.facts);
-}
-
-namespace {
-
-Recalled recalled_of(const std::string& bytes) {
-  try {
-    return from_bytes<Recalled>(bytes);
-  } catch (const Error&) {
-    refuse_row("recalled");
-  }
-}
-
-}  // namespace
-
-Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
-  open();
-}
-Index::~Index() { close(); }
-
-/// Runs what asks the database. When that is found to be damaged it is made anew and asked again;
-/// what else is wrong ends its use.
-template <class Action>
-void Index::with_database(Action action) {
-  const std::lock_guard lock(database_mutex_);
-  for (int attempt = 0; database_ && attempt < 2; ++attempt) {
-    try {
-      return action(*database_);
-    } catch (const DatabaseError& e) {
-      if (e.cause() == DatabaseError::Cause::busy) return database_->wait_no_more();
-      if (e.cause() == DatabaseError::Cause::system) return fail(e.what());
-      mend_while_open(e.what());
-    }
-  }
-}
+std::string Index::rebuilt() const { return file_->rebuilt(); }
+std::string Index::fault() const { return file_->fault(); }
 
 void Index::made(const Hash128& key, std::string_view step, std::uint64_t bytes) {
   const std::lock_guard lock(notes_mutex_);
@@ -95,7 +42,7 @@ std::vector<Fact> Index::facts(const std::string& pipeline, const std::string& p
       return at->second;
   }
   std::vector<Fact> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT facts, sum IS row_sum(pipeline, path, pass, facts) FROM facts WHERE "
                   "pipeline = ?1 AND path = ?2 AND pass = ?3");
@@ -116,59 +63,6 @@ void Index::set_facts(const std::string& pipeline, const std::string& path, int 
   notes_.facts[{pipeline, path, pass}] = std::move(facts);
 }
 
-std::optional<Recalled> Index::recalled(const Hash128& key) {
-  {
-    const std::lock_guard lock(notes_mutex_);
-    if (const auto at = notes_.recalled.find(key); at != notes_.recalled.end()) return at->second;
-  }
-  std::optional<Recalled> found;
-  with_database([&](Database& database) {
-    Statement ask(database,
-                  "SELECT recalled, sum IS row_sum(key, recalled, used) FROM recalled WHERE key = "
-                  "?1");
-    if (!ask.with(key).next()) return;
-    if (ask.number(1) != 1) refuse_row("recalled");
-    found = recalled_of(ask.text(0));
-  });
-  if (!found) return found;
-  const std::lock_guard lock(notes_mutex_);
-  notes_.recalled_again[key] = now_ms();
-  return found;
-}
-
-void Index::set_recalled(const Hash128& key, Recalled recalled) {
-  const std::lock_guard lock(notes_mutex_);
-  notes_.recalled[key] = std::move(recalled);
-}
-
-void Index::settle_recalled(std::int64_t oldest) {
-  flush();
-  with_database([&](Database& database) {
-    Statement all(database,
-                  "SELECT key, recalled, used, sum IS row_sum(key, recalled, used) FROM recalled");
-    Statement known(database, "SELECT 1 FROM results WHERE key = ?1");
-    Statement use(database,
-                  "UPDATE results SET used = ?2, sum = row_sum(key, step, bytes, made, ?2) WHERE "
-                  "key = ?1 AND used < ?2");
-    Statement forget(database, "DELETE FROM recalled WHERE key = ?1");
-    Transaction transaction(database);
-    while (all.next()) {
-      if (all.number(3) != 1) refuse_row("recalled");
-      const Recalled recalled = recalled_of(all.text(1));
-      bool there = false;
-      const auto see = [&](const Hash128& result) {
-        if (!known.with(result).next()) return;
-        there = true;
-        use.with(result, all.number(2)).run();
-      };
-      for (const Hash128& result : recalled.items) see(result);
-      see(recalled.whole);
-      if (!there || all.number(2) < oldest) forget.with(all.hash(0)).run();
-    }
-    transaction.commit();
-  });
-}
-
 std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t size,
                                         std::int64_t mtime_ns) {
   {
@@ -179,7 +73,7 @@ std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t s
                  : std::nullopt;
   }
   std::optional<Hash128> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT size, mtime_ns, hash, sum IS row_sum(path, size, mtime_ns, hash) FROM "
                   "file_hashes WHERE path = ?1");
@@ -205,7 +99,7 @@ void Index::flush() {
   }
   if (notes.empty()) return;
   bool written = false;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Transaction transaction(database);
     write(database, notes);
     transaction.commit();
@@ -264,17 +158,27 @@ void Index::write(Database& database, const Notes& notes) {
 
 void Index::check() {
   flush();
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     if (const std::string why = damage_in(database); !why.empty())
       throw DatabaseError(DatabaseError::Cause::damage, why);
     follow_files(database, store_);
   });
 }
 
+std::uint64_t Index::bytes() {
+  flush();
+  std::int64_t all = 0;
+  file_->with([&](Database& database) {
+    Statement ask(database, "SELECT sum(bytes) FROM results");
+    if (ask.next()) all = ask.number(0);
+  });
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(all, 0));
+}
+
 std::vector<IndexRow> Index::rows() {
   flush();
   std::vector<IndexRow> all;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     std::vector<IndexRow> rows;
     Statement ask(database,
                   "SELECT key, step, bytes, made, used, sum IS row_sum(key, step, bytes, made, "

@@ -20,6 +20,7 @@
 namespace plumb {
 
 class Database;
+class IndexFile;
 
 /// One result of a store.
 struct IndexRow {
@@ -56,11 +57,9 @@ struct Recalled {
 /// were used, why they were made, and hashes of input files:
 ///
 ///     DIR/index.sqlite   the tables results, facts, file_hashes and recalled; each row with its
-///     own
-///                        checksum
-///     DIR/index.lock     locked by all who use the index, shared; alone by the first who opens and
-///     the last who closes it (index_life.cpp) DIR/index.sum      XXH3-128 of index.sqlite, while
-///     nobody uses it
+///                        own checksum
+///     DIR/index.lock     locked by all who use the index (index_file.hpp)
+///     DIR/index.sum      XXH3-128 of index.sqlite, while nobody uses it
 ///
 /// A damaged index is noticed and made anew from the results. What is written is collected and
 /// reaches the disk by flush(). Nothing here throws because of what is on the disk: an index that
@@ -87,7 +86,8 @@ class Index {
   std::optional<Recalled> recalled(const Hash128& key);
   void set_recalled(const Hash128& key, Recalled recalled);
   /// Counts the results of what was recalled as used when it was, and forgets what was last
-  /// recalled before `oldest` [ms since 1970] or has no result left.
+  /// recalled before `oldest` [ms since 1970], what has no result left, and, of steps that have no
+  /// results of their own, what was last recalled a day before any result that is left was used.
   void settle_recalled(std::int64_t oldest);
 
   /// The content hash of an input file that had this size and time of change [ns]; none when it is
@@ -102,6 +102,8 @@ class Index {
   /// Looks at every row, and gives rows to results that have none, and takes those away that have
   /// no result.
   void check();
+  /// What all results take, by one question to the database.
+  std::uint64_t bytes();
   /// All results, least recently used first.
   std::vector<IndexRow> rows();
 
@@ -135,29 +137,12 @@ class Index {
     }
   };
 
-  template <class Action>
-  void with_database(Action action);
   void write(Database& database, const Notes& notes);
 
-  // index_life.cpp
-  void open();
-  void close();
-  void mend();
-  void seal();
-  void connect();
-  void mend_while_open(const std::string& why);
-  void rebuild(const std::string& why);
-  void fail(const std::string& why);
-  std::filesystem::path file() const { return store_ / "index.sqlite"; }
-
   std::filesystem::path store_;
-  Whose whose_;
-  int lock_ = -1;
-  std::mutex notes_mutex_, database_mutex_;
-  mutable std::mutex said_mutex_;
-  Notes notes_;                         ///< what flush() is to write
-  std::unique_ptr<Database> database_;  ///< none: not to be used
-  std::string rebuilt_, fault_;
+  std::mutex notes_mutex_;
+  Notes notes_;  ///< what flush() is to write
+  std::unique_ptr<IndexFile> file_;
 };
 
 }  // namespace plumb

@@ -154,6 +154,10 @@ TEST_F(Stranger, PutALinkInThePlaceOfAFolder) {
   fs::remove(path / "new");
   fs::create_symlink(elsewhere, path / "jobs");
   EXPECT_THAT(refused(), HasSubstr("its 'jobs' is not a directory of its own"));
+  fs::remove(path / "jobs");
+  fs::remove(path / "runs");
+  fs::create_symlink(elsewhere, path / "runs");
+  EXPECT_THAT(refused(), HasSubstr("its 'runs' is not a directory of its own"));
 }
 
 TEST_F(Stranger, PutAPipeInThePlaceOfTheMark) {

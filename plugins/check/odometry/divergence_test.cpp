@@ -303,7 +303,7 @@ TEST(CheckOdometry, RefusesATrajectoryOfOtherFrames) {
   } catch (const Error& e) {
     EXPECT_STREQ(
         e.what(),
-        "there are 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
+        "got 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "motion_noise.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::constrain_odometry {
@@ -59,9 +60,9 @@ struct ConstrainOdometry : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const Poses odometry = middle_poses(in);
     if (in.registered && in.registered->size() != odometry.size())
-      throw Error("there are " + std::to_string(odometry.size()) + " segments and " +
-                  std::to_string(in.registered->size()) +
-                  " registered poses: wire ranges and poses of the same segments");
+      throw Error("got " + counted(odometry.size(), "segments") + " and " +
+                  counted(in.registered->size(), "registered poses") +
+                  ": wire ranges and poses of the same segments");
     const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr,
                                       params.noise, params.max_factor, params.max_deviation);
     Out out;

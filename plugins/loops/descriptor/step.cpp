@@ -1,6 +1,7 @@
 #include "plumb/slam/step.hpp"
 
 #include "descriptor.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/short_number.hpp"
 #include "plumb/plugin/module.hpp"
 #include "similarity.hpp"
@@ -48,10 +49,10 @@ struct LoopEdges : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.descriptors.size() != count || in.poses->size() != count)
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.descriptors.size()) + " descriptors and " +
-                  std::to_string(in.poses->size()) +
-                  " poses: wire descriptors and poses of the same segments");
+      throw Error("got " + counted(count, "segments") + ", " +
+                  counted(in.descriptors.size(), "descriptors") + " and " +
+                  counted(in.poses->size(), "poses") +
+                  ": wire descriptors and poses of the same segments");
     Places places{std::vector<Eigen::Vector3d>(count), std::vector<Eigen::Vector3d>(count)};
     std::vector<One<Descriptor>> descriptors(count);
     context.parallel(count, [&](std::size_t k) {

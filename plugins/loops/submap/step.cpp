@@ -1,5 +1,6 @@
 #include "plumb/slam/step.hpp"
 
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/values.hpp"
 #include "submap.hpp"
@@ -41,8 +42,8 @@ struct LoopsSubmap : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     if (in.poses->size() != in.segments.size())
-      throw Error("there are " + std::to_string(in.segments.size()) + " segments and " +
-                  std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
+      throw Error("got " + counted(in.segments.size(), "segments") + " and " +
+                  counted(in.poses->size(), "poses") + ": wire poses of the same segments");
     auto found = find_loops([&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses,
                             in.known ? &*in.known : nullptr, params, context);
     Out out;

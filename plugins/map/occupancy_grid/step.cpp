@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "occupancy.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::map_occupancy_grid {
@@ -49,9 +50,9 @@ struct OccupancyGrid : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
     if (frames != in.trajectory->size())
-      throw Error("there are " + std::to_string(frames) + " frames but " +
-                  std::to_string(in.trajectory->size()) +
-                  " poses in the trajectory; wire the trajectory of these frames");
+      throw Error("got " + counted(frames, "frames") + " but " +
+                  counted(in.trajectory->size(), "poses") +
+                  " in the trajectory; wire the trajectory of these frames");
     std::vector<PlacedScan> scans(frames);
     context.parallel(frames, [&](std::size_t k) {
       scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "match_rmse.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::measure_match_rmse {
@@ -82,8 +83,8 @@ struct MatchRmse : WholeStep {
     const std::size_t segments = in.segments.size();
     const auto check = [&](const Poses& poses) {
       if (poses.size() != segments)
-        throw Error("there are " + std::to_string(poses.size()) + " poses but " +
-                    std::to_string(segments) + " segments; wire poses of the same segments");
+        throw Error("got " + counted(poses.size(), "poses") + " but " +
+                    counted(segments, "segments") + "; wire poses of the same segments");
     };
     for (const auto& [label, poses] : in.poses) check(*poses);
     if (in.pairs) check(*in.pairs);

@@ -397,9 +397,8 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
         .run<Constraints>("constraints", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(
-        e.what(),
-        "a loop names segment 48, but there are 40 poses: wire poses of the same segments");
+    EXPECT_STREQ(e.what(),
+                 "a loop names segment 48, but got 40 poses: wire poses of the same segments");
   }
 }
 

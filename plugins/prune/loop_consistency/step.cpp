@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "loop_consistency.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/registration.hpp"
 
@@ -106,8 +107,8 @@ struct PruneLoopConsistency : WholeStep {
     std::vector<std::size_t> of;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       if (edges[k].j >= in.poses->size())
-        throw Error("a loop names segment " + std::to_string(edges[k].j) + ", but there are " +
-                    std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
+        throw Error("a loop names segment " + std::to_string(edges[k].j) + ", but got " +
+                    counted(in.poses->size(), "poses") + ": wire poses of the same segments");
       if (!registrations[k].accepted) continue;
       loops.push_back({edges[k].i, edges[k].j, registrations[k].T_i_j, params.translation_sigma,
                        params.rotation_sigma});

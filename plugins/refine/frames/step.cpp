@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "refine.hpp"
 
@@ -47,9 +48,9 @@ struct RefineFrames : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count || in.frames.size() != in.trajectory->size())
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.poses->size()) + " poses, " + std::to_string(in.frames.size()) +
-                  " frames and a trajectory of " + std::to_string(in.trajectory->size()) +
+      throw Error("got " + counted(count, "segments") + ", " + counted(in.poses->size(), "poses") +
+                  ", " + counted(in.frames.size(), "frames") + " and a trajectory of " +
+                  std::to_string(in.trajectory->size()) +
                   ": wire what belongs to the same segments and frames");
     Out out{*in.trajectory};
     std::vector<std::uint32_t> alone(count, 0);

@@ -12,6 +12,7 @@
 #include "edge_state.hpp"
 #include "marginals.hpp"
 #include "parts.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "pose_manifold.hpp"
 #include "verdict.hpp"
@@ -64,8 +65,8 @@ class Graph {
   void check(std::span<const MatchedEdge> edges, const Constraints* constraints) const {
     const auto has = [&](std::uint32_t i, const char* what) {
       if (i >= start_.size())
-        throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but there are " +
-                    std::to_string(start_.size()) + " poses; wire poses of the same segments");
+        throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but got " +
+                    counted(start_.size(), "poses") + "; wire poses of the same segments");
     };
     for (const auto& e : edges) has(e.edge.i, "an edge"), has(e.edge.j, "an edge");
     if (!constraints) return;

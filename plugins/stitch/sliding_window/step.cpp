@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "shared/thinning/spots.hpp"
 #include "window.hpp"
@@ -53,8 +54,7 @@ struct SlidingWindow : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count || (in.edges && in.edges->segments != count))
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.poses->size()) + " poses" +
+      throw Error("got " + counted(count, "segments") + ", " + counted(in.poses->size(), "poses") +
                   (in.edges ? " and edges between " + std::to_string(in.edges->segments) : "") +
                   "; wire those of the same segments");
     std::vector<One<Segment>> scans(count);

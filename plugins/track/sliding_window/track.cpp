@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
 namespace plumb::track_sliding_window {
@@ -129,9 +130,9 @@ class Tracker {
 Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
               const TrackOptions& options) {
   if (initial.size() != scans.size() || chain.segments != scans.size())
-    throw Error("there are " + std::to_string(scans.size()) + " scans, " +
-                std::to_string(initial.size()) + " poses and a chain of " +
-                std::to_string(chain.segments) + "; wire those of the same scans");
+    throw Error("got " + counted(scans.size(), "scans") + ", " + counted(initial.size(), "poses") +
+                " and a chain of " + std::to_string(chain.segments) +
+                "; wire those of the same scans");
   for (std::size_t k = 0; k < chain.size(); ++k)
     if (chain.list[k].i >= chain.list[k].j || (k > 0 && chain.list[k].i != chain.list[k - 1].j))
       throw Error("edge " + std::to_string(k) + " joins scans " + std::to_string(chain.list[k].i) +

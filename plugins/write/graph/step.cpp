@@ -1,6 +1,7 @@
 #include "plumb/slam/step.hpp"
 
 #include "graph_text.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 
@@ -48,9 +49,8 @@ struct WriteGraph : WholeStep {
     Constraints graph;
     if (in.constraints) graph = *in.constraints;
     if (!graph.ids.empty() && graph.ids.size() != in.poses->size())
-      throw Error("the constraints have " + std::to_string(graph.ids.size()) +
-                  " vertices but there are " + std::to_string(in.poses->size()) +
-                  " poses; wire poses of the same graph");
+      throw Error("the constraints are of " + counted(graph.ids.size(), "poses") + ", but got " +
+                  std::to_string(in.poses->size()) + "; wire poses of the same graph");
     if (in.matches) {
       const auto& edges = edges_of(in.matches).list;
       std::vector<std::optional<RelativePose>> found(edges.size());

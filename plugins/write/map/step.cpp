@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "map_file.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "voxel_map.hpp"
@@ -56,9 +57,9 @@ struct WriteMap : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
     if (frames != in.trajectory->size())
-      throw Error("there are " + std::to_string(frames) + " frames but " +
-                  std::to_string(in.trajectory->size()) +
-                  " poses in the trajectory; wire the trajectory of these frames");
+      throw Error("got " + counted(frames, "frames") + " but " +
+                  counted(in.trajectory->size(), "poses") +
+                  " in the trajectory; wire the trajectory of these frames");
     const Eigen::Vector3d origin = map_origin(*in.trajectory);
     VoxelMap map(params.voxel_size, origin);
     std::uint64_t points = 0, too_far = 0;

@@ -277,7 +277,7 @@ TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
   EXPECT_THAT(refusal(wired().each("ranges", std::vector<FrameRange>())),
               HasSubstr("do not cover the trajectory"));
   EXPECT_THAT(refusal(wired().each("ranges", ranges_of({4, 5}))),
-              HasSubstr("names segment 2, but there are 2"));
+              HasSubstr("names segment 2, but got 2 segments"));
 }
 
 TEST(WriteUncertainty, RefusesANameWithAFolder) {

@@ -173,3 +173,18 @@ def test_another_program_s_trajectory_stands_beside_ours(folder):
     (folder / "rooms/wheels.tum").unlink()
     said = plumb("compare", PIPELINES / "zhang2023.yaml", "--variant", f"wheels={judge}", "--input", folder / "rooms", "--quiet", code=WRONG_INPUT)
     said.has("estimate")
+
+
+def test_the_bound_of_a_cache_is_held_over_all_runs(folder):
+    command, rooms = files(folder)
+    blobs = (folder / "store/blobs").rglob
+    plumb(*command, "--input", rooms[0], "--cache-dir", folder / "store")
+    earlier = {blob.name for blob in blobs("*") if blob.is_file()}
+    bounded = [*command, "--input", rooms[1], "--cache-size", "1kB"]
+    refused(plumb(*bounded, code=WRONG_COMMAND_LINE), "--cache-size 1kB: bounds a cache, and there is none")
+    said = plumb(*bounded, "--cache-dir", folder / "store")
+    assert said.err.count("cache: removed ") == 1 and said.err.count("cache: holds more than 1kB (--cache-size)") == 1, said
+    kept = {blob.name for blob in blobs("*") if blob.is_file()}
+    assert kept and earlier - kept, said
+    said = plumb(*bounded, "--cache-dir", folder / "store")  # the first of its runs does not remove what the second will use
+    assert "cache: removed" not in said.err and kept == {blob.name for blob in blobs("*") if blob.is_file()}, said

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/engine/observe/memory_watch.hpp"
 #include "plumb/engine/observe/observer.hpp"
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <map>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/engine/record/quoted.hpp"
 
 namespace plumb {

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/observe/counted.hpp"
 
 namespace plumb {
 namespace {

@@ -112,7 +112,7 @@ TEST_F(PoisonedStore, WithValuesOfAnotherType) {
 
 TEST_F(PoisonedStore, WithTooFewValuesOrOutputs) {
   expect_made_again("test.pair", "holds 0 values", [](StoredResult& r) { r.outputs[0].clear(); });
-  expect_made_again("test.halve", "1 outputs where the step has 2",
+  expect_made_again("test.halve", "1 output where the step has 2",
                     [](StoredResult& r) { r.outputs.pop_back(); });
   expect_made_again("test.stitch", "3 values of its output 'groups' where the step gives 4",
                     [](StoredResult& r) { r.outputs[0].pop_back(); });

@@ -2,12 +2,14 @@
 
 #include <chrono>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
 #include "plumb/engine/run/parallel.hpp"
 #include "plumb/engine/run/step_run.hpp"
 #include "plumb/store/index.hpp"
+#include "plumb/store/size_bound.hpp"
 
 namespace plumb {
 namespace {
@@ -33,6 +35,7 @@ class Runner {
         admission_(memory_for_calls(options)),
         executor_(options.executor),
         store_(options.store),
+        bound_(options.store_bound),
         lifetimes_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
@@ -86,10 +89,9 @@ class Runner {
   }
 
   void run_item(const PlannedItem& item) {
-    if (item.step >= 0)
-      run_step(item.step);
-    else
-      run_repeat(item.repeat);
+    if (item.step < 0) return run_repeat(item.repeat);
+    run_step(item.step);
+    if (bound_) bound_->after_step();
   }
 
   Source source_of(const Wire& wire) const {
@@ -209,7 +211,7 @@ class Runner {
     loops_.push_back({repeat.path, judge.passes(), why});
     const bool exhausted = !repeat.conditions.empty() && why.starts_with("at_most");
     const std::string sentence =
-        repeat.path + " ended after " + std::to_string(judge.passes()) + " passes: " + why;
+        repeat.path + " ended after " + counted(judge.passes(), "passes") + ": " + why;
     if (exhausted && repeat.if_exhausted == Exhausted::fail)
       throw Error(repeat.origin.text() + ": " + sentence +
                   "; allow more passes (at_most) or ask for less (until)");
@@ -222,6 +224,7 @@ class Runner {
   Admission admission_;
   Executor* executor_;
   Store* store_;
+  SizeBound* bound_;
   std::vector<Lifetime> lifetimes_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass

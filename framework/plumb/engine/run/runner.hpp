@@ -15,10 +15,13 @@
 
 namespace plumb {
 
+class SizeBound;
+
 struct RunOptions {
   unsigned threads = 0;    ///< 0: as many as the machine has
   Store* store = nullptr;  ///< where results of earlier runs are found and those of this one kept
   bool fresh = false;      ///< nothing is taken from the store, but all is kept
+  SizeBound* store_bound = nullptr;  ///< held between steps; in the end whoever has it sees to it
   std::size_t memory = 0;  ///< bound of resident memory [bytes], which needs a store; 0: none
   Executor* executor =
       nullptr;  ///< makes calls in other processes, which needs a store; none: all in this one

@@ -2,6 +2,7 @@
 /// elsewhere, fetched again, dropped.
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -66,7 +67,7 @@ void StepRun::refuse_counts(const std::string& one, std::size_t have, const std:
                             std::size_t wanted) const {
   throw NestedError(
       "step '" + plan_.path + "' (" + plan_.description->name + "): " + one + " has " +
-      std::to_string(have) + " items where " + other + " has " + std::to_string(wanted) +
+      counted(have, "items") + " where " + other + " has " + std::to_string(wanted) +
       "; wire what was cut alike, and if a cache was changed by hand, run with --refresh");
 }
 

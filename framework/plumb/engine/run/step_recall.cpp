@@ -55,6 +55,7 @@ bool StepRun::recall() {
   said.warnings = known->warnings;
   said_in_full_ = true;
   if (whole || items) {
+    store->hold(whole ? std::span<const Hash128>(&known->whole, 1) : known->items);
     state_.books.step_begins(plan_.path, state_.pass, whole ? 1 : known->items.size());
     state_.books.all_reused(plan_.path, state_.pass, whole ? 1 : known->items.size());
     recalled_ = true;

@@ -3,12 +3,14 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "plumb/engine/run/runner.hpp"
 #include "plumb/engine/testing/test_steps.hpp"
 #include "plumb/pipeline/reader.hpp"
 #include "plumb/store/blob_file.hpp"
 #include "plumb/store/index.hpp"
+#include "plumb/store/size_bound.hpp"
 #include "plumb/store/upkeep.hpp"
 
 namespace plumb {
@@ -21,6 +23,7 @@ using testing::IsEmpty;
 struct Recall : testing::Test {
   const Registry steps = engine_test::registry();
   const fs::path folder = fs::temp_directory_path() / ("plumb_recall_" + std::to_string(getpid()));
+  Trimmed trimmed;  ///< by the last run
   ~Recall() override { fs::remove_all(folder); }
 
   Plan plan(std::string text = engine_test::halving_steps, const std::string& more = "") {
@@ -33,14 +36,20 @@ struct Recall : testing::Test {
     std::ofstream(file) << text;
     return read_pipeline(file, {}, steps);
   }
-  RunResult run(const Plan& plan, bool fresh = false) {
+  RunResult run(const Plan& plan, bool fresh = false,
+                std::optional<std::uint64_t> bound = std::nullopt) {
     Store store(folder / "store");
     RunOptions options;
     options.store = &store;
     options.fresh = fresh;
+    SizeBound size(&store, bound);
+    options.store_bound = &size;
     Observers silent;
     engine_test::frames_opened = engine_test::pairs_made = engine_test::shifted_made = 0;
-    return run_plan(plan, steps, options, silent);
+    RunResult result = run_plan(plan, steps, options, silent);
+    size.at_end();
+    trimmed = size.trimmed();
+    return result;
   }
   /// What the steps whose results are not files gave is gone from the store.
   void remove_all_but(const std::string& step) {
@@ -49,6 +58,10 @@ struct Recall : testing::Test {
       if (row.step != step) {
         EXPECT_TRUE(fs::remove(blob_file(folder / "store", row.key)));
       }
+  }
+  std::size_t results_in_store() {
+    Store store(folder / "store");
+    return store.index()->rows().size();
   }
   static std::string text_of(const RunResult& result) {
     std::string text;
@@ -123,8 +136,9 @@ TEST_F(Recall, AChangeIsMadeWithAllThatFollows) {
   EXPECT_THAT(made_by(second), testing::ElementsAre("source", "loop.near", "loop.solved", "out"));
   EXPECT_EQ(engine_test::shifted_made, 3);  // of the last pass alone
   for (const Explained& one : second.explained)
-    if (one.path == "loop.near" && one.pass == 2)
+    if (one.path == "loop.near" && one.pass == 2) {
       EXPECT_THAT(one.text(), HasSubstr("gate was 1 m, is 3 m"));
+    }
   const RunResult third = run(plan(changed), true);
   EXPECT_EQ(text_of(second), text_of(third));
 }
@@ -150,6 +164,43 @@ TEST_F(Recall, AKeyThatLeadsToSomethingElseIsNotBelieved) {
                   fs::copy_options::overwrite_existing);
   }
   EXPECT_EQ(text_of(run(plan())), text_of(first));
+}
+
+TEST_F(Recall, NothingThatARunRecalledIsRemovedForABound) {
+  const RunResult first = run(plan());
+  EXPECT_EQ(trimmed.results, 0u);
+  const std::size_t results = results_in_store();
+  for (int again = 0; again < 2; ++again) {
+    const RunResult bounded = run(plan(), false, 0);
+    EXPECT_EQ(trimmed.results, 0u);
+    EXPECT_GT(trimmed.own_bytes, 0u);
+    EXPECT_EQ(trimmed.own_bytes, trimmed.left_bytes);
+    EXPECT_EQ(results_in_store(), results);
+    EXPECT_EQ(text_of(bounded), text_of(first));
+    EXPECT_EQ(counts_of(bounded), counts_of(first));
+    EXPECT_THAT(made_by(bounded), testing::ElementsAre("source"));
+  }
+}
+
+TEST_F(Recall, WhatOnlyEarlierRunsUsedIsRemovedForABoundAndMadeAgain) {
+  const RunResult first = run(plan());
+  const std::size_t results = results_in_store();
+  std::string changed = engine_test::halving_steps;
+  changed.replace(changed.find("2 m, 1 m"), 8, "2 m, 3 m");
+  const RunResult second = run(plan(changed), false, 1);
+  EXPECT_GT(trimmed.results, 0u);
+  EXPECT_LT(trimmed.results, results);
+  EXPECT_EQ(text_of(run(plan(changed))), text_of(second));
+  EXPECT_EQ(engine_test::shifted_made, 0) << "nothing of the bounded run is gone";
+  EXPECT_EQ(text_of(run(plan())), text_of(first));
+  EXPECT_GT(engine_test::shifted_made, 0);
+}
+
+TEST_F(Recall, ARunThatIsBoundedFromTheBeginningIsWhole) {
+  const RunResult bounded = run(plan(), false, 0);
+  EXPECT_EQ(trimmed.results, 0u);
+  EXPECT_EQ(trimmed.own_bytes, trimmed.left_bytes);
+  EXPECT_EQ(text_of(run(plan(), true)), text_of(bounded));
 }
 
 TEST_F(Recall, ResultsThatAreRecalledAreNotPrunedAsUnused) {

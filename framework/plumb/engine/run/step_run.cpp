@@ -1,6 +1,7 @@
 /// A step with its inputs joined: what is common to steps on items and on whole collections.
 #include "plumb/engine/run/step_run.hpp"
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -88,8 +89,7 @@ bool StepRun::first_asked(std::size_t output, std::size_t k) {
 std::string StepRun::misfit_of(const StoredResult& result) const {
   const auto& outputs = plan_.description->outputs;
   if (const std::size_t n = result.outputs.size(); n != outputs.size())
-    return "has " + std::to_string(n) + " outputs where the step has " +
-           std::to_string(outputs.size());
+    return "has " + counted(n, "outputs") + " where the step has " + std::to_string(outputs.size());
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const auto& values = result.outputs[o];
     for (const AnyValue& value : values)
@@ -97,8 +97,8 @@ std::string StepRun::misfit_of(const StoredResult& result) const {
         return std::string("holds ") + value.type->name + " where the step gives " +
                outputs[o].type->name;
     if (const auto many = values_of(o); many && values.size() != *many)
-      return "holds " + std::to_string(values.size()) + " values of its output '" +
-             outputs[o].name + "' where the step gives " + std::to_string(*many);
+      return "holds " + counted(values.size(), "values") + " of its output '" + outputs[o].name +
+             "' where the step gives " + std::to_string(*many);
   }
   return "";
 }

@@ -1,6 +1,7 @@
 /// A step on whole collections: reused, made here or elsewhere, and its values named.
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
@@ -131,8 +132,8 @@ void StepRun::check_items(std::size_t output) {
   const std::size_t items = source->run->count(source->output), made = whole_keys_[output].size();
   if (made != items)
     throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" +
-                port.name + "' has " + std::to_string(made) + " values where its input '" +
-                port.over + "' has " + std::to_string(items) + "; the step must give one for each");
+                port.name + "' has " + counted(made, "values") + " where its input '" + port.over +
+                "' has " + std::to_string(items) + "; the step must give one for each");
   if (source->run->list()) list_source_ = source->run->list_source(), list_ = source->run->list();
 }
 

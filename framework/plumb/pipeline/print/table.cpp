@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
+
 namespace plumb {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <unordered_set>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/data/io/file_text.hpp"
@@ -107,9 +108,9 @@ void require_pose_each(const fs::path& folder, std::size_t frames, const fs::pat
   if (frames == 1)
     refuse(folder, "has 1 frame, but needs at least 2: there is nothing to straighten");
   if (poses == frames) return;
-  refuse(folder, "has " + std::to_string(frames) + " frames, but " + poses_from.string() + " has " +
-                     std::to_string(poses) +
-                     " poses: give exactly one pose a frame, in the same order");
+  refuse(folder, "has " + counted(frames, "frames") + ", but " + poses_from.string() + " has " +
+                     counted(poses, "poses") +
+                     ": give exactly one pose a frame, in the same order");
 }
 
 }  // namespace plumb::io

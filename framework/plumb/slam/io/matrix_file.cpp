@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 #include "plumb/slam/io/trajectory_text.hpp"
 
@@ -41,8 +42,8 @@ Trajectory read_kitti(const Path& poses, const Path& times) {
   }
   if (result.T_world_frame.empty()) refuse(poses, "holds no pose: give 12 numbers a line");
   if (result.stamps.size() != result.T_world_frame.size())
-    refuse(times, "holds " + std::to_string(result.stamps.size()) + " stamps for the " +
-                      std::to_string(result.T_world_frame.size()) + " poses of " + poses.string() +
+    refuse(times, "holds " + counted(result.stamps.size(), "stamps") + " for the " +
+                      counted(result.T_world_frame.size(), "poses") + " of " + poses.string() +
                       ": give one for each pose");
   return result;
 }

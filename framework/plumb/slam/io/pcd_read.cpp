@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/slam/io/lzf.hpp"
 #include "plumb/slam/io/point_columns.hpp"
 
@@ -74,7 +75,7 @@ void read_per_field(const Path& file, std::size_t line, const std::vector<std::s
   const auto key = words[0];
   if (words.size() != fields.size() + 1)
     refuse(file, line,
-           std::string(key) + " has " + std::to_string(words.size() - 1) + " entries for " +
+           std::string(key) + " has " + counted(words.size() - 1, "entries") + " for " +
                std::to_string(fields.size()) + " FIELDS: give one for each field");
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const auto word = words[k + 1];
@@ -109,7 +110,7 @@ Header read_header(const Path& file, Lines& lines) {
     const auto at = lines.number();
     if (key == "FIELDS" || key == "COLUMNS") {
       if (words.size() - 1 > most_fields || words.size() < 2)
-        refuse(file, at, "names " + std::to_string(words.size() - 1) + " fields: name 1 to 1024");
+        refuse(file, at, "names " + counted(words.size() - 1, "fields") + ": name 1 to 1024");
       header.fields.resize(words.size() - 1);
       for (std::size_t k = 1; k < words.size(); ++k) header.fields[k - 1].name = words[k];
     } else if (key == "SIZE" || key == "TYPE" || key == "COUNT") {
@@ -186,8 +187,8 @@ std::string unpacked(const Path& file, const Header& header, std::string_view da
     refuse(file, "promises " + std::to_string(sizes[0]) + " packed bytes but holds " +
                      std::to_string(data.size()) + ": the file is cut short, write it again");
   if (header.points > sizes[1] / header.step || header.points * header.step != sizes[1])
-    refuse(file, "its header promises " + std::to_string(header.points) + " points of " +
-                     std::to_string(header.step) + " bytes, but " + std::to_string(sizes[1]) +
+    refuse(file, "its header promises " + counted(header.points, "points") + " of " +
+                     counted(header.step, "bytes") + ", but " + std::to_string(sizes[1]) +
                      " bytes are packed: the header is wrong, write the file again");
   std::string result;
   if (!unpack_lzf(data.substr(0, sizes[0]), sizes[1], result))

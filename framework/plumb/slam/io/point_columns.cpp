@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/short_number.hpp"
 
 namespace plumb::io {
@@ -180,7 +181,7 @@ CloudFile from_text(const std::filesystem::path& file, const std::vector<Column>
   std::string_view line;
   for (std::size_t have = 0; have < points;) {
     if (!lines.next(line))
-      refuse(file, "holds " + std::to_string(have) + " points where its header promises " +
+      refuse(file, "holds " + counted(have, "points") + " where its header promises " +
                        std::to_string(points) + ": the file is cut short, write it again");
     std::size_t count = 0;
     for (auto word = next_word(line); !word.empty(); word = next_word(line), ++count) {
@@ -191,7 +192,7 @@ CloudFile from_text(const std::filesystem::path& file, const std::vector<Column>
     if (count == 0) continue;
     if (count != words)
       refuse(file, lines.number(),
-             "has " + std::to_string(count) + " numbers where the header names " +
+             "has " + counted(count, "numbers") + " where the header names " +
                  std::to_string(words) + ": correct the line or the header");
     const auto value = [&](const Column* c) { return static_cast<float>(numbers[c->offset]); };
     cloud.x.push_back(value(roles.x));
@@ -216,9 +217,8 @@ void require_room(const std::filesystem::path& file, std::uint64_t points, std::
                   std::size_t available) {
   if (points > std::numeric_limits<std::uint32_t>::max() ||
       (least > 0 && points > available / least))
-    refuse(file, "its header promises " + std::to_string(points) + " points of " +
-                     std::to_string(least) + " bytes or more, but only " +
-                     std::to_string(available) +
+    refuse(file, "its header promises " + counted(points, "points") + " of " +
+                     counted(least, "bytes") + " or more, but only " + std::to_string(available) +
                      " bytes follow: the file is cut short or its header is wrong, write it again");
 }
 

@@ -135,7 +135,7 @@ TEST(TrajectoryFile, RefusesWrongFilesWithTheLineAndTheCure) {
   const auto kitti = [&](const std::string& times) {
     return refusal([&] { read_kitti(poses, folder.write("times.txt", times)); });
   };
-  EXPECT_THAT(kitti("1\n2\n"), HasSubstr("2 stamps for the 1 poses"));
+  EXPECT_THAT(kitti("1\n2\n"), HasSubstr("2 stamps for the 1 pose"));
   EXPECT_THAT(kitti("1\n0\n"), HasSubstr("not later"));
   const auto matrix = [&](const std::string& text) {
     return refusal([&] { read_mulran_csv(folder.write("a.csv", text)); });

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "plumb/data/counted.hpp"
+
 namespace plumb::io {
 
 bool next_numbers(const std::filesystem::path& file, Lines& lines, char also,
@@ -21,7 +23,7 @@ bool next_numbers(const std::filesystem::path& file, Lines& lines, char also,
     if (count == 0) continue;
     if (count != values.size())
       refuse(file, lines.number(),
-             "has " + std::to_string(count) + " numbers where " + std::to_string(values.size()) +
+             "has " + counted(count, "numbers") + " where " + std::to_string(values.size()) +
                  " belong: correct the line");
     return true;
   }

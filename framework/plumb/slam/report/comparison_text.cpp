@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/short_number.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/report/comparison.hpp"
 
 namespace plumb {
@@ -24,7 +24,7 @@ std::vector<std::string> row_of(const Comparison& comparison, const ComparedNumb
   std::vector<std::string> row{number.name + (number.unit.empty() ? "" : " [" + number.unit + "]")};
   if (number.inputs.size() < comparison.inputs.size())
     row[0] += " (" + std::to_string(number.inputs.size()) + " of " +
-              std::to_string(comparison.inputs.size()) + " inputs)";
+              counted(comparison.inputs.size(), "inputs") + ")";
   for (std::size_t v = 0; v < comparison.variants.size(); ++v)
     row.push_back(number.values[v].empty() ? "-" : short_number(number.mean(v)));
   for (std::size_t v = 1; v < comparison.variants.size(); ++v)

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/engine/observe/counted.hpp"
 #include "plumb/slam/io/frame_files.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 

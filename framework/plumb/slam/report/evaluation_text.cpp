@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/slam/report/evaluation.hpp"
 
 namespace plumb {

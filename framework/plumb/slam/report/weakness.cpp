@@ -4,7 +4,7 @@
 #include <cctype>
 #include <map>
 
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/slam/report/made_metrics.hpp"
 
 namespace plumb {

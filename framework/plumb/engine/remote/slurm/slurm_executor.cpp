@@ -4,8 +4,8 @@
 #include <set>
 #include <thread>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/engine/observe/counted.hpp"
 
 namespace plumb {
 namespace {

@@ -1,10 +1,5 @@
-/// From the opening of an index to its closing: who may trust it, and who mends it.
-///
-/// All who use the index hold index.lock shared. The first to come and the last to go hold it
-/// alone: the last one checks every row and leaves the checksum of the whole file in index.sum; the
-/// first one compares it and takes it away. Without it a run ended uncleanly, and every row is
-/// checked instead. The database is never open while the lock changes hands, so that whoever holds
-/// it alone may replace the file.
+#include "plumb/store/index_file.hpp"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -13,8 +8,6 @@
 #include <cstring>
 
 #include "plumb/store/blob_file.hpp"
-#include "plumb/store/database.hpp"
-#include "plumb/store/index.hpp"
 #include "plumb/store/index_tables.hpp"
 
 namespace plumb {
@@ -65,7 +58,12 @@ void remove_database(const fs::path& index) {
 
 }  // namespace
 
-void Index::open() {
+IndexFile::IndexFile(fs::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
+  open();
+}
+IndexFile::~IndexFile() { close(); }
+
+void IndexFile::open() {
   const auto refuse = [this] { fail(std::strerror(errno)); };
   const fs::path lock = store_ / "index.lock";
   if (const std::string why = why_refused(lock, Whose::anyones); !why.empty())
@@ -91,14 +89,14 @@ void Index::open() {
   }
 }
 
-void Index::connect() {
+void IndexFile::connect() {
   if (const std::string why = not_to_be_opened(file(), whose_); !why.empty())
     throw DatabaseError(DatabaseError::Cause::damage, why);
   database_ = std::make_unique<Database>(file());
 }
 
 /// Under the lock alone: leaves a sound index, in use.
-void Index::mend() {
+void IndexFile::mend() {
   remove_unfinished(store_);
   const fs::path sum = sum_of(store_);
   const bool closed = is_there(sum), there = is_there(file());
@@ -127,7 +125,7 @@ void Index::mend() {
 }
 
 /// Under the lock alone: from the results.
-void Index::rebuild(const std::string& why) {
+void IndexFile::rebuild(const std::string& why) {
   remove_database(file());
   {
     const std::lock_guard lock(said_mutex_);
@@ -140,7 +138,7 @@ void Index::rebuild(const std::string& why) {
 
 /// Found to be damaged while it is used. Whoever else uses it has the file open: then it is left to
 /// the next who is alone.
-void Index::mend_while_open(const std::string& why) {
+void IndexFile::mend_while_open(const std::string& why) {
   database_.reset();
   if (!rebuilt().empty()) return fail("it was damaged again, " + why);
   if (!locked(lock_, LOCK_EX | LOCK_NB))
@@ -154,9 +152,8 @@ void Index::mend_while_open(const std::string& why) {
   }
 }
 
-void Index::close() {
+void IndexFile::close() {
   if (lock_ < 0) return;
-  flush();
   database_.reset();
   if (fault().empty() && locked(lock_, LOCK_EX | LOCK_NB) && !is_there(sum_of(store_))) seal();
   ::close(lock_);
@@ -165,7 +162,7 @@ void Index::close() {
 
 /// Under the lock alone: certifies what lies there. An index that is not sound gets no checksum,
 /// and the next run mends it.
-void Index::seal() {
+void IndexFile::seal() {
   try {
     {
       Database database(file());
@@ -179,19 +176,19 @@ void Index::seal() {
 }
 
 /// No more use of it; others may go on.
-void Index::fail(const std::string& why) {
+void IndexFile::fail(const std::string& why) {
   database_.reset();
   if (lock_ >= 0) locked(lock_, LOCK_UN);
   const std::lock_guard lock(said_mutex_);
   if (fault_.empty()) fault_ = why;
 }
 
-std::string Index::rebuilt() const {
+std::string IndexFile::rebuilt() const {
   const std::lock_guard lock(said_mutex_);
   return rebuilt_;
 }
 
-std::string Index::fault() const {
+std::string IndexFile::fault() const {
   const std::lock_guard lock(said_mutex_);
   return fault_;
 }

@@ -1,4 +1,4 @@
-#include "plumb/engine/observe/counted.hpp"
+#include "plumb/data/counted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@ TEST(Counted, IsSingularForOneAndAsItIsForAnyOtherNumber) {
   EXPECT_EQ(counted(1, "passes"), "1 pass");
   EXPECT_EQ(counted(1, "matches passed on"), "1 match passed on");
   EXPECT_EQ(counted(1, "poses"), "1 pose");
+  EXPECT_EQ(counted(1, "entries for 2 fields"), "1 entry for 2 fields");
   EXPECT_EQ(counted(1, "pairs whose boxes meet"), "1 pair whose boxes meet");
 }
 
@@ -27,6 +28,7 @@ TEST(Counted, LeavesWhatIsNoPlural) {
   EXPECT_EQ(counted(1, "of these after a stretch without scans"),
             "1 of these after a stretch without scans");
   EXPECT_EQ(counted(1, "loss"), "1 loss");
+  EXPECT_EQ(counted(1, "series of scans"), "1 series of scans");
   EXPECT_EQ(counted(1, ""), "1 ");
 }
 
