@@ -39,6 +39,9 @@ class Declaration : public ParameterSet<typename S::Params> {
 
   Declaration& name(const char* text) { return of_.name = text, *this; }
   Declaration& version(int number) { return of_.version = number, *this; }
+  /// The author's word that every build with this version gives the same results, so that those of
+  /// other builds are taken from the cache. Without it they are made again.
+  Declaration& across_builds() { return of_.across_builds = true, *this; }
   Declaration& summary(const char* text) { return of_.summary = text, *this; }
   Declaration& source(const char* text) { return of_.source = text, *this; }
 

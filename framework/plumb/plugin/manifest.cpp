@@ -44,6 +44,7 @@ json parameter_json(const ParameterDescription& p) {
 json to_json(const StepDescription& s) {
   json j = {{"name", s.name},
             {"version", s.version},
+            {"across_builds", s.across_builds},
             {"items", s.items ? json(s.items->name) : json(nullptr)},
             {"summary", s.summary},
             {"source", s.source}};

@@ -95,6 +95,7 @@ StepDraft step_draft(const json& j) {
   StepDescription& s = draft.step;
   s.name = j.at("name");
   s.version = whole_of<int>(j.at("version"));
+  s.across_builds = j.value("across_builds", false);
   draft.items = kind_name(j.at("items"));
   s.summary = j.at("summary");
   s.source = j.at("source");

@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/hash.hpp"
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/plugin/build_identity.hpp"
 #include "plumb/plugin/manifest.hpp"
 #include "plumb/plugin/trusted_file.hpp"
 
@@ -75,8 +77,12 @@ void Registry::take(const fs::path& module) {
   try {
     Manifest manifest = manifest_of(module);
     licences_[module.string()] = manifest.licence;
+    Hasher build;
+    build.text(build_of(module));
+    build.text(build_of_libraries());
     for (StepDescription& step : manifest.steps) {
       step.module = module.string();
+      step.build = build.hash().text();
       const auto [at, is_new] = entries_.try_emplace(step.name);
       if (is_new)
         at->second.description = std::move(step);

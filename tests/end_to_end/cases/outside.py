@@ -1,13 +1,9 @@
 """Two modules that are built outside the tree, from the core's SDK alone: one defines value types and item kinds and fills them, the other takes them."""
-import json
-import os
-import re
 import shutil
 import subprocess
 from functools import cache
-from pathlib import Path
 
-from plumb_test import BUILD, HERE, PLUMB, SOURCE, STEP_FAILED, WRONG_INPUT, files_of, plumb, refused
+from plumb_test import BUILD, HERE, SOURCE, WRONG_INPUT, files_of, plumb, refused
 
 PIPELINE = """plumb: 1
 steps:
@@ -23,7 +19,8 @@ def build(folder, names=("plant", "tally"), change=lambda text: text):
     """Modules in folder/modules, compiled as somebody would who has the headers and the library."""
     sources, modules = folder / "sources", folder / "modules"
     shutil.copytree(HERE / "outside", sources, dirs_exist_ok=True)
-    (sources / "forest.hpp").write_text(change((sources / "forest.hpp").read_text()))
+    for source in sources.iterdir():
+        source.write_text(change(source.read_text()))
     modules.mkdir(mode=0o755, exist_ok=True)
     for name in names:
         module = modules / f"forest.{name}.so"
@@ -97,4 +94,34 @@ def test_modules_that_mean_another_type_by_one_name_are_refused(folder):
         build(at, ["tally"], change)
         said = plumb("--plugin-path", modules, "check", pipeline, code=WRONG_INPUT)
         refused(said, "forest.grow")  # the module was not taken, so that its steps are not there
-        plumb("--plugin-path", modules, "doctor", code=None if False else WRONG_INPUT).has(told)
+        plumb("--plugin-path", modules, "doctor", code=WRONG_INPUT).has(told)
+
+
+def test_an_edited_kernel_is_never_stale(folder):
+    """Changed and built again under the same version, as an author does all day; and built again from the same source."""
+    pipeline, store = folder / "forest.yaml", folder / "store"
+    pipeline.write_text(PIPELINE)
+
+    def run(modules, out):
+        return plumb("--plugin-path", modules, "run", pipeline, "--cache-dir", store, "--explain", "-o", folder / out)
+
+    run(build(folder), "first")
+    run(build(folder), "second").has("grown: reused, all 5", "tally: reused")
+    edited = build(folder, ["tally"], lambda text: text.replace("in.tree->height + params.by", "in.tree->height + 2 * params.by"))
+    run(edited, "third").has("row: reused", "grown: made, all 5: the build of forest.grow was ")
+    assert (folder / "third/forest.txt").read_bytes() == b"20 12 4\n"
+    elsewhere = build(folder / "elsewhere", ["tally"], lambda text: text.replace("in.tree->height + params.by", "in.tree->height + 2 * params.by"))
+    shutil.copy2(folder / "modules/forest.plant.so", elsewhere)
+    shutil.copy2(folder / "modules/forest.plant.json", elsewhere)
+    run(elsewhere, "fourth").has("grown: reused, all 5")
+
+
+def test_an_author_may_answer_for_all_builds_of_a_version(folder):
+    pipeline, store = folder / "forest.yaml", folder / "store"
+    pipeline.write_text(PIPELINE)
+    answered = 'version(1).across_builds()'
+    for turn, kernel in (("first", "+ params.by"), ("second", "+ 2 * params.by")):
+        modules = build(folder, change=lambda text: text.replace("version(1)", answered).replace("+ params.by", kernel))
+        said = plumb("--plugin-path", modules, "run", pipeline, "--cache-dir", store, "--explain", "-o", folder / turn)
+    said.has("grown: reused, all 5")
+    assert files_of(folder / "second") == files_of(folder / "first")

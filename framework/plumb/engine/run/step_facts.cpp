@@ -31,6 +31,8 @@ const Facts& StepRun::facts() {
   if (!facts_.empty()) return facts_;
   const StepDescription& step = *plan_.description;
   Facts facts = {{"step", step.name}, {"version of " + step.name, std::to_string(step.version)}};
+  if (!step.across_builds && !step.build.empty())
+    facts.push_back({"the build of " + step.name, step.build.substr(0, 12)});
   for (const ParameterDescription& parameter : step.parameters) {
     const auto at = values_.find(parameter.name);
     if (at == values_.end() || !parameter.affects_result) continue;
