@@ -75,6 +75,10 @@ struct StepDescription {
   std::string summary;              ///< one line
   std::string source;               ///< paper and section
   std::string module;               ///< file it was loaded from; empty in a test
+  /// Which build of its code it is (build_identity.hpp): results are known by it, so that those of
+  /// an edited kernel are never taken for its own. Empty in a test.
+  std::string build;
+  bool across_builds = false;  ///< results are known by `version` alone
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
   std::vector<ParameterDescription> parameters;
