@@ -57,6 +57,9 @@ struct PoisonedStore : testing::Test {
       EXPECT_TRUE(replace_whole(file, blob_of(key, result, step)));
       ++changed;
     });
+    // Without what it remembers of the steps the next run opens their results.
+    for (const char* file : {"index.sqlite", "index.sum"})
+      fs::remove(folder.path() / "store" / file);
     return changed;
   }
   /// The changed results are said to be damaged for this reason and made again: the run's own are
@@ -116,6 +119,18 @@ TEST_F(PoisonedStore, WithTooFewValuesOrOutputs) {
                     [](StoredResult& r) { r.outputs.pop_back(); });
   expect_made_again("test.stitch", "3 values of its output 'groups' where the step gives 4",
                     [](StoredResult& r) { r.outputs[0].pop_back(); });
+}
+
+TEST_F(PoisonedStore, DoesNoHarmWhereNothingOfItIsOpened) {
+  const std::string before = run();
+  const fs::path index = folder.path() / "store" / "index.sqlite", kept = folder.path() / "kept";
+  fs::copy_file(index, kept);
+  fs::copy_file(folder.path() / "store" / "index.sum", folder.path() / "kept.sum");
+  ASSERT_GT(change("test.chain", [](StoredResult& r) { r.outputs[0].clear(); }), 0u);
+  fs::copy_file(kept, index);
+  fs::copy_file(folder.path() / "kept.sum", folder.path() / "store" / "index.sum");
+  EXPECT_EQ(run(), before);
+  EXPECT_EQ(damaged, 0u);
 }
 
 TEST_F(PoisonedStore, WithAGraphOfMoreSegmentsThanThereAreIsRefused) {

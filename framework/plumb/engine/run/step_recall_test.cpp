@@ -101,29 +101,17 @@ TEST_F(Recall, NothingButTheDocumentsHasToBeThere) {
 }
 
 TEST_F(Recall, WhatSomebodyAsksForAndIsGoneIsMadeAgain) {
-  run(plan());
-  const RunResult whole = run(plan(engine_test::halving_steps,
-                                   "  again: {use: test.write, from: {metrics: "
-                                   "loop.solved.metrics}, with: {name: b.txt}}\n"
-                                   "  more: {use: test.chain, from: merged}\n"
-                                   "  pairs: {use: test.pair, from: {edges: more, segments: "
-                                   "merged}}\n"
-                                   "  near: {use: test.shift, from: {matches: pairs, poses: "
-                                   "source.poses}}\n"
-                                   "  end: {use: test.halve, from: {matches: near, poses: "
-                                   "source.poses}}\n"),
-                              true);
+  const std::string more =
+      "  again: {use: test.write, from: {metrics: loop.solved.metrics}, with: {name: b.txt}}\n"
+      "  joined: {use: test.chain, from: merged}\n"
+      "  first: {use: test.pair, from: {edges: joined, segments: merged}}\n"
+      "  gaps: {use: test.shift, from: {matches: first, poses: source.poses}}\n"
+      "  end: {use: test.halve, from: {matches: gaps, poses: source.poses}}\n";
+  const RunResult whole = run(plan(engine_test::halving_steps, more), true);
   fs::remove_all(folder / "store");
   run(plan());
   remove_all_but("test.write");
-  const RunResult mended =
-      run(plan(engine_test::halving_steps,
-               "  again: {use: test.write, from: {metrics: loop.solved.metrics}, with: {name: "
-               "b.txt}}\n"
-               "  more: {use: test.chain, from: merged}\n"
-               "  pairs: {use: test.pair, from: {edges: more, segments: merged}}\n"
-               "  near: {use: test.shift, from: {matches: pairs, poses: source.poses}}\n"
-               "  end: {use: test.halve, from: {matches: near, poses: source.poses}}\n"));
+  const RunResult mended = run(plan(engine_test::halving_steps, more));
   EXPECT_EQ(text_of(mended), text_of(whole));
   EXPECT_GT(engine_test::frames_opened, 0);
 }
