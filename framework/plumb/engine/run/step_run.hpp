@@ -48,9 +48,9 @@ struct RunState {
 
 /// One step in one pass, for whoever asks it: for its items, their keys, its values.
 ///
-/// Larger than a class should be (tests/tree/size_test.py): whether a value is recalled, found, made
-/// here or elsewhere, passes through or was dropped is one state that all of these questions read
-/// and change. By file: step_call (one call), step_items, step_whole, step_recall, step_facts.
+/// Larger than a class should be (tests/tree/size_test.py): whether a value is recalled, found,
+/// made here or elsewhere, passes through or was dropped is one state that all of these questions
+/// read and change. By file: step_call (one call), step_items, step_whole, step_recall, step_facts.
 class StepRun : public std::enable_shared_from_this<StepRun> {
  public:
   StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
