@@ -100,7 +100,10 @@ const std::string& build_of_libraries() {
     for (fs::directory_iterator entry(folder_of_this_library(), error), end; !error && entry != end;
          entry.increment(error)) {
       const std::string name = entry->path().filename().string();
-      if (name.starts_with("libplumb_") && name.ends_with(".so")) libraries.push_back(*entry);
+      const std::string version = entry->path().extension().string();  // ".0": what modules load
+      if (name.starts_with("libplumb_") && name.ends_with(".so" + version) && version.size() > 1 &&
+          version.find_first_not_of("0123456789", 1) == std::string::npos)
+        libraries.push_back(*entry);
     }
     std::sort(libraries.begin(), libraries.end());
     Hasher hasher;
