@@ -112,6 +112,7 @@ std::string text_under(Draft& draft, const char* key) {
 
 std::vector<std::string> names_of(const std::map<std::string, Setting>& settings) {
   std::vector<std::string> all;
+  all.reserve(settings.size());
   for (const auto& [name, setting] : settings) all.push_back(name);
   return all;
 }

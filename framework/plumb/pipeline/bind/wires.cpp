@@ -139,6 +139,7 @@ class Binder {
       wire(fitting[0].first, *fitting[0].second);
     } else if (fitting.empty()) {
       std::vector<std::string> want;
+      want.reserve(inputs.size());
       for (const InputDescription& input : inputs)
         want.push_back("'" + input.name + "' [" + wanted(step(), input) + "]");
       fault(from, "'" + from.text + "' gives " + gives + ", which fits none of its inputs.",
