@@ -1,7 +1,45 @@
-# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED])
+# plumb_add_shared(NAME [LIBRARIES ...])
+#
+# Builds plumb_shared_NAME, kernels that several steps share, from the .cpp files of the calling folder plugins/shared/NAME (all but *_test.cpp), and
+# its test from *_test.cpp. Who links it includes "shared/NAME/FILE.hpp". Where there are headers alone, it is they that are linked.
+function(plumb_add_shared name)
+  cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(tests ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  set(target plumb_shared_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/plugins)
+    target_link_libraries(${target} PUBLIC plumb_slam ${arg_LIBRARIES})
+    target_link_libraries(${target} PRIVATE plumb_kernel)
+    target_compile_options(${target} PRIVATE ${PLUMB_WARNINGS})
+    plumb_precompiled_step(${target})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/plugins)
+    target_link_libraries(${target} INTERFACE plumb_slam ${arg_LIBRARIES})
+  endif()
+
+  if(PLUMB_TESTS AND tests)
+    add_executable(test_shared_${name} ${tests})
+    plumb_precompiled_test(test_shared_${name})
+    target_link_libraries(test_shared_${name} PRIVATE ${target} plumb_arch GTest::gmock GTest::gtest_main)
+    gtest_discover_tests(test_shared_${name} TEST_PREFIX "shared.${name}." DISCOVERY_MODE PRE_TEST)
+  endif()
+endfunction()
+
+# plumb_add_step(FAMILY.NAME [SOURCES a.cpp ...] [TESTS a_test.cpp ...] [LIBRARIES ...] [TEST_LIBRARIES ...] [NOT_INSTALLED] [PORTABLE]
+#                [LICENCE "SPDX expression" LICENCE_REASON "sentence"])
 #
 # Builds the module of one step from the .cpp files of the calling folder (all but *_test.cpp), writes its manifest
 # (what `plumb list` reads without running the module), and builds its test from *_test.cpp.
+#
+# PORTABLE: compiled for any x86-64, as libraries are that it exchanges Eigen's matrices with, and not for the processors of PLUMB_ARCH.
+#
+# LICENCE is what whoever loads the module accepts: the licence of its own code AND those of all libraries that it loads beside libplumb and what
+# that loads; BSD-3-Clause if not given. LICENCE_REASON names the libraries and says which brings what.
 # A module is loaded only from where nobody else may write, whatever the umask of who builds it: plumb_close_folder(FOLDER) makes such a folder.
 function(plumb_close_folder folder)
   file(MAKE_DIRECTORY ${folder})
@@ -9,7 +47,7 @@ function(plumb_close_folder folder)
 endfunction()
 
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "NOT_INSTALLED" "" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
@@ -17,16 +55,24 @@ function(plumb_add_step step)
   if(NOT arg_TESTS)
     file(GLOB arg_TESTS CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   endif()
+  if(NOT arg_LICENCE)
+    set(arg_LICENCE BSD-3-Clause)
+  elseif(NOT arg_LICENCE_REASON)
+    message(FATAL_ERROR "${step}: LICENCE needs LICENCE_REASON, a sentence that says which library brings what")
+  endif()
   string(REPLACE "." "_" id ${step})
 
   # The objects are compiled once; the module and the test both link them.
   add_library(${id}_objects OBJECT ${arg_SOURCES})
-  target_link_libraries(${id}_objects PUBLIC plumb ${arg_LIBRARIES})
+  target_link_libraries(${id}_objects PUBLIC plumb_slam ${arg_LIBRARIES})
   target_compile_options(${id}_objects PRIVATE ${PLUMB_WARNINGS})
-  plumb_precompiled_step(${id}_objects)
+  if(NOT arg_PORTABLE)
+    target_link_libraries(${id}_objects PRIVATE plumb_kernel)
+    plumb_precompiled_step(${id}_objects)
+  endif()
 
   add_library(step_${id} MODULE $<TARGET_OBJECTS:${id}_objects>)
-  target_link_libraries(step_${id} PRIVATE plumb ${arg_LIBRARIES} -Wl,--no-undefined)
+  target_link_libraries(step_${id} PRIVATE plumb_slam ${arg_LIBRARIES} -Wl,--no-undefined)
   set_target_properties(step_${id} PROPERTIES PREFIX "" OUTPUT_NAME ${step}
                         LIBRARY_OUTPUT_DIRECTORY ${PLUMB_MODULE_DIR})
   if(NOT TARGET plumb_modules)
@@ -37,8 +83,9 @@ function(plumb_add_step step)
     add_custom_command(TARGET step_${id} POST_BUILD
                        COMMAND chmod go-w $<TARGET_FILE:step_${id}>
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
+                               ${arg_LICENCE} ${arg_LICENCE_REASON}
                        COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
-                       COMMENT "Manifest of ${step}")
+                       COMMENT "Manifest of ${step}" VERBATIM)
     add_dependencies(step_${id} plumb_manifest)
   endif()
   if(NOT arg_NOT_INSTALLED)
@@ -48,8 +95,13 @@ function(plumb_add_step step)
 
   if(PLUMB_TESTS AND arg_TESTS)
     add_executable(test_${id} ${arg_TESTS} $<TARGET_OBJECTS:${id}_objects>)
-    plumb_precompiled_test(test_${id})
-    target_link_libraries(test_${id} PRIVATE plumb ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
+    if(NOT arg_PORTABLE)
+      target_link_libraries(test_${id} PRIVATE plumb_arch)
+      plumb_precompiled_test(test_${id})
+    else()
+      target_compile_options(test_${id} PRIVATE ${PLUMB_WARNINGS})
+    endif()
+    target_link_libraries(test_${id} PRIVATE plumb_slam ${arg_LIBRARIES} ${arg_TEST_LIBRARIES} GTest::gmock
                                              GTest::gtest_main)
     target_compile_definitions(test_${id} PRIVATE PLUMB_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     gtest_discover_tests(test_${id} TEST_PREFIX "${step}." DISCOVERY_MODE PRE_TEST)

@@ -14,7 +14,7 @@ constexpr std::uint32_t triples = 20000;
 
 void ours(benchmark::State& state) {
   const Cloud& cloud = thinned_segment(0, 0.3);
-  for (auto _ : state) benchmark::DoNotOptimize(esf(cloud, triples, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(describe_esf::esf(cloud, triples, 1));
   per(state, "triple", triples);
 }
 BENCHMARK(ours)->Name("esf/ours")->Unit(benchmark::kMillisecond);

@@ -7,6 +7,7 @@
 #include "../../plugins/describe/fpfh/fpfh.hpp"
 #include "../../plugins/describe/fpfh/key_points.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
@@ -20,7 +21,8 @@ double radius_of(const benchmark::State& state) {
 }
 
 std::vector<std::uint32_t> keys_of(const benchmark::State& state, const Cloud& cloud) {
-  if (state.range(1) > 0) return key_points(cloud, 0.1 * static_cast<double>(state.range(1)));
+  if (state.range(1) > 0)
+    return describe_fpfh::key_points(cloud, 0.1 * static_cast<double>(state.range(1)));
   std::vector<std::uint32_t> all(cloud.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -34,11 +36,11 @@ void say(benchmark::State& state, const Cloud& cloud, const std::vector<std::uin
 void ours(benchmark::State& state) {
   const Cloud& cloud = segment_with_normals(0);
   const auto keys = keys_of(state, cloud);
-  FpfhOptions options;
+  describe_fpfh::FpfhOptions options;
   options.radius = radius_of(state);
   for (auto _ : state) {
     TestContext one_thread;
-    benchmark::DoNotOptimize(fpfh(cloud, keys, options, one_thread));
+    benchmark::DoNotOptimize(describe_fpfh::fpfh(cloud, keys, options, one_thread));
   }
   say(state, cloud, keys);
 }

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "plumb/geometry/pair_moments.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 #include "scene.hpp"
 
 namespace plumb::bench {

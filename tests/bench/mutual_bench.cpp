@@ -7,6 +7,7 @@
 #include "../../plugins/describe/fpfh/key_points.hpp"
 #include "../../plugins/match/fpfh_mutual/mutual.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_FLANN
 #include <flann/flann.hpp>
@@ -25,7 +26,8 @@ struct Ends {
   static std::vector<float> described(std::size_t which, double leaf) {
     const Cloud& cloud = segment_with_normals(which);
     TestContext context;
-    return fpfh(cloud, key_points(cloud, leaf), {}, context).features.vectors;
+    return describe_fpfh::fpfh(cloud, describe_fpfh::key_points(cloud, leaf), {}, context)
+        .features.vectors;
   }
   static const Ends& of(const benchmark::State& state) {
     static std::map<std::int64_t, Ends> all;
@@ -39,7 +41,8 @@ struct Ends {
 
 void ours(benchmark::State& state) {
   const Ends& ends = Ends::of(state);
-  for (auto _ : state) benchmark::DoNotOptimize(mutual_nearest(ends.a, ends.b, bins));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(match_fpfh_mutual::mutual_nearest(ends.a, ends.b, bins));
   ends.say(state);
 }
 BENCHMARK(ours)
@@ -51,7 +54,8 @@ BENCHMARK(ours)
 
 void all_pairs(benchmark::State& state) {
   const Ends& ends = Ends::of(state);
-  for (auto _ : state) benchmark::DoNotOptimize(mutual_nearest_plainly(ends.a, ends.b, bins));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(match_fpfh_mutual::mutual_nearest_plainly(ends.a, ends.b, bins));
   ends.say(state);
 }
 BENCHMARK(all_pairs)

@@ -26,10 +26,10 @@ void ours(benchmark::State& state) {
   };
   const Segment i = segment(0), j = segment(1);
   j.tree();
-  NearestOptions options;
+  match_nearest::NearestOptions options;
   options.max_correspondence_distance = max;
   std::size_t pairs = 0;
-  for (auto _ : state) pairs = nearest_pairs(i, j, relative(), options).size();
+  for (auto _ : state) pairs = match_nearest::nearest_pairs(i, j, relative(), options).size();
   say(state, pairs);
 }
 BENCHMARK(ours)->Name("nearest/ours")->Unit(benchmark::kMillisecond);

@@ -3,6 +3,7 @@
 
 #include "../../plugins/estimate/normals/normals.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
@@ -16,7 +17,7 @@ void ours(benchmark::State& state) {
   const auto origin = [](std::size_t) { return Eigen::Vector3f(0, 0, 0); };
   for (auto _ : state) {
     TestContext one_thread;
-    estimate_normals(cloud, SearchTree(cloud), {{}, 30}, origin, one_thread);
+    estimate_normals::estimate_normals(cloud, SearchTree(cloud), {{}, 30}, origin, one_thread);
     benchmark::DoNotOptimize(cloud.nx.data());
   }
   per(state, "point", static_cast<double>(cloud.size()));

@@ -10,6 +10,13 @@
 namespace plumb::bench {
 namespace {
 
+using edges_overlap::Lattice;
+using edges_overlap::lattice_over;
+using edges_overlap::overlap;
+using edges_overlap::Voxels;
+using edges_overlap::voxels_of;
+using edges_overlap::world_box;
+
 constexpr double size = 1;
 
 const Cloud& end(std::size_t which) { return thinned_segment(which, 0.3); }

@@ -47,8 +47,9 @@ void by_kmeans(benchmark::State& state) {
   const Matches matches = planted(state);
   std::vector<std::uint32_t> kept;
   for (auto _ : state) {
-    const auto vectors = displacements(matches, Pose());
-    kept = best_cluster(kmeans(vectors, 30, Random(1)), vectors, Keep::largest, 0.1, 6);
+    const auto vectors = prune_kmeans::displacements(matches, Pose());
+    kept = prune_kmeans::best_cluster(prune_kmeans::kmeans(vectors, 30, Random(1)), vectors,
+                                      prune_kmeans::Keep::largest, 0.1, 6);
   }
   say(state, kept);
 }
@@ -63,7 +64,7 @@ BENCHMARK(by_kmeans)
 void by_ransac(benchmark::State& state) {
   const Matches matches = planted(state);
   std::vector<std::uint32_t> kept;
-  for (auto _ : state) kept = ransac(matches, {}, Random(1)).inliers;
+  for (auto _ : state) kept = prune_ransac::ransac(matches, {}, Random(1)).inliers;
   say(state, kept);
 }
 BENCHMARK(by_ransac)

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::bench {

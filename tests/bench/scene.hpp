@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb::bench {
 

@@ -1,7 +1,7 @@
 /// The search tree in space beside nanoflann: building, the 30 nearest, all within 1 m (unsorted).
 /// Per point.
 
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
 #include "scene.hpp"
 #ifdef PLUMB_HAS_NANOFLANN
 #include <nanoflann.hpp>

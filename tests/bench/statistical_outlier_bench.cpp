@@ -3,6 +3,7 @@
 
 #include "../../plugins/filter/statistical_outlier/statistical_outlier.hpp"
 #include "scene.hpp"
+#include "shared/parallel/loop_testing.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
 #endif
@@ -14,12 +15,13 @@ constexpr double leaf = 0.1;
 
 void ours(benchmark::State& state) {
   const Cloud& cloud = thinned_segment(0, leaf);
-  const auto one_thread = [](std::size_t n, const std::function<void(std::size_t)>& body) {
-    for (std::size_t k = 0; k < n; ++k) body(k);
-  };
   std::size_t left = 0;
   for (auto _ : state)
-    left = not_beyond(mean_distances(cloud, SearchTree(cloud), 20, one_thread), 2).size();
+    left = filter_statistical_outlier::not_beyond(
+               filter_statistical_outlier::mean_distances(cloud, SearchTree(cloud), 20,
+                                                          parallel::in_order),
+               2)
+               .size();
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["left"] = static_cast<double>(left);
 }

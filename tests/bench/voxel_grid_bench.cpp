@@ -14,7 +14,7 @@ double leaf_of(const benchmark::State& state) { return 0.01 * static_cast<double
 void ours(benchmark::State& state) {
   const Cloud& cloud = merged_segment(0);
   std::size_t left = 0;
-  for (auto _ : state) left = thin(cloud, {}, {}, leaf_of(state)).cloud.size();
+  for (auto _ : state) left = filter_voxel_grid::thin(cloud, {}, {}, leaf_of(state)).cloud.size();
   per(state, "point", static_cast<double>(cloud.size()));
   state.counters["left"] = static_cast<double>(left);
 }

@@ -72,9 +72,9 @@ def blobs_in(store):
 
 def unfinished_in(store):
     """What stands in a store that neither is a result nor belongs to it."""
-    known = {"plumb-store", "blobs", "new", "index.sqlite", "index.sqlite-wal", "index.sqlite-shm", "index.lock", "index.sum"}
+    known = {"plumb-store", "blobs", "new", "runs", "index.sqlite", "index.sqlite-wal", "index.sqlite-shm", "index.lock", "index.sum"}
     strange = [p.name for p in store.iterdir() if p.name not in known] if store.is_dir() else []
-    return strange + [f"new/{p.name}" for p in (store / "new").glob("*")]
+    return strange + [f"{folder}/{p.name}" for folder in ("new", "runs") for p in (store / folder).glob("*")]
 
 
 def beside(world, expected):

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
 namespace plumb {
 

@@ -8,12 +8,14 @@
 #include <limits>
 #include <map>
 
+#include "cache_size.hpp"
 #include "command.hpp"
 #include "plumb/data/amount.hpp"
-#include "plumb/data/error.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/store/index.hpp"
 #include "plumb/store/upkeep.hpp"
 #include "store_option.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -30,7 +32,7 @@ std::string day_and_time(std::int64_t ms) {
   return text;
 }
 
-std::string results(std::size_t n) { return std::to_string(n) + (n == 1 ? " result" : " results"); }
+std::string results(std::size_t n) { return counted(n, "results"); }
 
 /// The store that is meant; none, which is said, when there is none yet: looking for one does not
 /// make it.
@@ -38,16 +40,18 @@ std::unique_ptr<Store> existing(const Options& options) {
   options.store.require_one_meaning();
   const auto folder = options.store.folder();
   if (folder.empty())
-    throw Error(options.store.none()
-                    ? "--cache-dir none: there is nothing to look after; name a folder"
-                    : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
-                      "--cache-dir DIR which cache is meant");
+    throw UsageError(options.store.none()
+                         ? options.store.title() +
+                               ": there is nothing to look after; name a folder by --cache-dir DIR"
+                         : "neither XDG_CACHE_HOME nor HOME names a folder; say by "
+                           "--cache-dir DIR which cache is meant");
   if (std::filesystem::exists(folder)) return options.store.open(folder);
   std::cout << folder.string() << ": nothing is kept yet\n";
   return nullptr;
 }
 
 void show(const Options& options) {
+  CacheSize().require_one_meaning(options.store);
   const auto store = existing(options);
   if (!store) return;
   struct Sum {
@@ -64,7 +68,7 @@ void show(const Options& options) {
   for (const IndexRow& row : store->index()->rows()) all.add(row), by_step[row.step].add(row);
   say_faults(*store);
   std::cout << store->folder().string() << ": " << results(all.results) << ", "
-            << text_of_bytes(all.bytes) << "\n";
+            << text_of_bytes(all.bytes) << "; bound: " << CacheSize().limit(*store).shown() << "\n";
   if (all.results == 0) return;
   std::vector<std::pair<std::string, Sum>> lines(by_step.begin(), by_step.end());
   std::ranges::stable_sort(
@@ -98,10 +102,12 @@ void verify_store(const Options& options) {
 
 void prune_store(const Options& options) {
   PruneLimits limits;
-  if (!options.older.empty()) limits.older = age_of_text("--older", options.older);
-  if (!options.size.empty()) limits.bytes = bytes_of_text("--size", options.size);
+  if (!options.older.empty())
+    limits.older = usage([&] { return age_of_text("--older", options.older); });
+  if (!options.size.empty())
+    limits.bytes = usage([&] { return bytes_of_text("--size", options.size); });
   if (!limits.older && !limits.bytes)
-    throw Error(
+    throw UsageError(
         "cache prune: removes nothing without a limit; give --older 30d, --size 10GiB or both");
   const auto store = existing(options);
   if (!store) return;
@@ -122,8 +128,9 @@ void add_cache(CLI::App& app) {
   options->store.add_to(*command);
   command->require_subcommand(0, 1);
   command->footer(
-      "Without a sub-command: number and size of the results by step. All of it is safe while runs "
-      "use the cache; what is removed is made again.\n"
+      "Without a sub-command: number and size of the results by step, and the bound that runs hold "
+      "(run --cache-size, PLUMB_CACHE_SIZE). All of it is safe while runs use the cache; what is "
+      "removed is made again.\n"
       "Example: plumb cache prune --older 30d --size 10GiB");
   auto* check = command->add_subcommand(
       "verify", "Checks every result and the index, and removes what is damaged");

@@ -3,6 +3,8 @@
 #include <iostream>
 
 #include "pipeline_options.hpp"
+#include "plumb/data/counted.hpp"
+#include "plumb/engine/plan/plan_text.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/pipeline/print/graph.hpp"
 #include "plumb/pipeline/print/table.hpp"
@@ -17,10 +19,15 @@ void add_check(CLI::App& app) {
   options->overlay.needs_files = true;
   command->footer(
       "Prints every mistake with file:line:column, files that are not there too; or the passes of "
-      "each loop. Exit 1 when there is a mistake.");
+      "each loop, and with --plan the steps in the order in which they run. Exit 1 when there is a "
+      "mistake.");
   auto untrusted = std::make_shared<Untrusted>();
   untrusted->add_to(*command);
-  command->callback([options, untrusted] {
+  auto with_plan = std::make_shared<bool>(false);
+  command->add_flag("--plan", *with_plan,
+                    "Also print what a run will do, step by step: what one call sees, how long "
+                    "results live and why, which steps could run side by side");
+  command->callback([options, untrusted, with_plan] {
     untrusted->before_reading(*options);
     const Registry steps = untrusted->steps();
     const Plan plan = read_pipeline(options->file, options->overlay, steps);
@@ -28,7 +35,9 @@ void add_check(CLI::App& app) {
     untrusted->before_running(plan, steps, {});
     preflight(plan, steps);
     std::cout << passes_table(plan);
-    std::cout << options->file.string() << ": good, " << plan.steps.size() << " steps\n";
+    if (*with_plan) std::cout << (plan.repeats.empty() ? "" : "\n") << plan_text(plan) << "\n";
+    std::cout << options->file.string() << ": good, " << counted(plan.steps.size(), "steps")
+              << "\n";
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The sub-commands of `plumb`, one file each. A callback throws plumb::Error on a wrong input.
+/// The sub-commands of `plumb`, one file each. A callback throws plumb::Error on a wrong input, and
+/// UsageError (usage.hpp) on a wrong command line.
 
 #include <filesystem>
 #include <vector>
@@ -31,7 +32,7 @@ void add_compare(CLI::App& app);
 void add_cache(CLI::App& app);
 void add_worker(CLI::App& app);
 
-/// `--plugin-path`, given before the sub-command; filled while the command line is read.
+/// `--plugin-path`, before or behind the sub-command; filled while the command line is read.
 extern std::vector<std::filesystem::path> plugin_path;
 
 /// The steps of this installation and of plugin_path.

@@ -4,19 +4,23 @@
 #include <iostream>
 #include <set>
 
+#include "cache_size.hpp"
 #include "console.hpp"
 #include "exit_guard.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
-#include "plumb/data/io/trajectory_text.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
-#include "plumb/report/comparison.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
+#include "plumb/slam/io/trajectory_text.hpp"
+#include "plumb/slam/report/comparison.hpp"
+#include "side_file.hpp"
 #include "store_option.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -31,6 +35,7 @@ struct Options {
   unsigned threads = 0;
   bool quiet = false, json = false;
   StoreOption store{.otherwise = "none"};
+  CacheSize cache_size;
 };
 
 /// A pipeline with what is laid over it for one input, ready to run.
@@ -109,14 +114,16 @@ std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline,
   if (!fs::exists(input))
     throw Error("--input " + input.string() +
                 ": there is no such file or folder; give a log, or the folder of a sequence");
-  if (!fs::is_directory(input)) return {"input=" + input.string()};
+  const auto set = [](const std::string& name, const fs::path& file) {
+    return name + "=" + pipeline::dollars_doubled(file.string());
+  };
+  if (!fs::is_directory(input)) return {set("input", input)};
   const auto log = input / "log.clf";
-  std::vector<std::string> sets{"input=" + (fs::exists(log) ? log : input).string()};
+  std::vector<std::string> sets{set("input", fs::exists(log) ? log : input)};
   for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"},
                                    {"plan", "plan.txt"},
                                    {"estimate", variant + ".tum"}})
-    if (declares(name) && fs::exists(input / file))
-      sets.push_back(name + ("=" + (input / file).string()));
+    if (declares(name) && fs::exists(input / file)) sets.push_back(set(name, input / file));
   return sets;
 }
 
@@ -145,14 +152,7 @@ void require_good_names(const Options& options, const Plan& pipeline,
                   ", of which compare makes a folder in -o, " + fault);
 }
 
-void compare(const Options& options) {
-  options.store.require_one_meaning();
-  const Registry steps = installed_steps();
-  const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
-  say_warnings(pipeline);
-  const auto variants = variants_of(options, pipeline);
-  const auto input_names = names_of(options.inputs);
-  require_good_names(options, pipeline, input_names);
+void require_different_inputs(const Options& options) {
   for (std::size_t k = 0; k < options.inputs.size(); ++k)
     for (std::size_t n = 0; n < k; ++n)
       if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
@@ -160,57 +160,98 @@ void compare(const Options& options) {
                     ": is given twice, which would make the confidence look better than it is; "
                     "leave one out");
   if (is_set(options, "input"))
-    throw Error("--set input=...: --input sets it; leave one of them out");
+    throw UsageError("--set input=...: --input sets it; leave one of them out");
+}
+
+/// The runs of a variant on all inputs, in their order.
+std::vector<Run> runs_of(const Variant& variant, const Options& options, const Registry& steps) {
+  std::vector<Run> runs;
+  for (const fs::path& input : options.inputs) {
+    const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
+    auto sets = sets_of(input, open, variant.name);
+    if (!variant.alone) {
+      std::erase_if(sets, [&](const std::string& set) {
+        return is_set(options, set.substr(0, set.find('=')));
+      });
+      sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+    }
+    runs.push_back(
+        {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
+    say_warnings(runs.back().plan);
+  }
+  return runs;
+}
+
+/// What all runs share.
+struct Shared {
+  const Options& options;
+  const Registry& steps;
+  Store* store;
+  SizeBound* bound;
+  bool settled = true;  ///< what was put in place is as it should be
+};
+
+/// Makes one run and fills its folder.
+RunResult result_of(Run& run, Shared& shared) {
+  Console console(true, "");
+  RunOptions run_options;
+  run_options.threads = shared.options.threads;
+  run_options.store = shared.store;
+  run_options.store_bound = shared.bound;
+  const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
+  RunResult result = run_plan(run.plan, shared.steps, run_options, console);
+  if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
+      !unsettled.empty()) {
+    std::cerr << "plumb: " << unsettled << "\n";
+    shared.settled = false;
+  }
+  return result;
+}
+
+void compare(const Options& options) {
+  options.store.require_one_meaning();
+  options.cache_size.require_one_meaning(options.store);
+  const Registry steps = installed_steps();
+  const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
+  say_warnings(pipeline);
+  const auto variants = variants_of(options, pipeline);
+  const auto input_names = names_of(options.inputs);
+  require_good_names(options, pipeline, input_names);
+  require_different_inputs(options);
   require_timed(options.figures.timed, pipeline);
 
   // All that can be refused is refused before the first run.
-  std::vector<std::vector<Run>> runs(variants.size());
+  std::vector<std::vector<Run>> runs;
   std::vector<std::string> variant_names;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    variant_names.push_back(variants[v].name);
-    for (std::size_t k = 0; k < options.inputs.size(); ++k) {
-      const Variant& variant = variants[v];
-      const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
-      auto sets = sets_of(options.inputs[k], open, variant.name);
-      if (!variant.alone) {
-        std::erase_if(sets, [&](const std::string& set) {
-          return is_set(options, set.substr(0, set.find('=')));
-        });
-        sets.insert(sets.end(), options.sets.begin(), options.sets.end());
-      }
-      runs[v].push_back(
-          {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
-      say_warnings(runs[v].back().plan);
-    }
+  for (const Variant& variant : variants) {
+    runs.push_back(runs_of(variant, options, steps));
+    variant_names.push_back(variant.name);
   }
   const ExitGuard while_loading;
   for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
   remove_staging_when_interrupted();
+  const auto place = [&](std::size_t v, std::size_t k) {
+    return options.output / variants[v].name / input_names[k];
+  };
+  const auto for_each_place = [&](const auto& act) {
+    for (std::size_t v = 0; v < variants.size() && !options.output.empty(); ++v)
+      for (std::size_t k = 0; k < input_names.size(); ++k) act(v, k);
+  };
+  for_each_place([&](std::size_t v, std::size_t k) { require_apart(options.store, place(v, k)); });
   const std::unique_ptr<Store> store = options.store.open();
-  if (!options.output.empty())
-    for (std::size_t v = 0; v < variants.size(); ++v)
-      for (std::size_t k = 0; k < input_names.size(); ++k)
-        runs[v][k].folder =
-            std::make_unique<OutputFolder>(options.output / variants[v].name / input_names[k]);
+  for_each_place([&](std::size_t v, std::size_t k) {
+    runs[v][k].folder = std::make_unique<OutputFolder>(place(v, k));
+  });
 
   const ExitGuard while_running;
-  bool settled = true;
+  BoundedCache cache(options.cache_size, store.get());
+  Shared shared{options, steps, store.get(), cache.bound()};
   std::vector<std::vector<std::vector<Number>>> figures(variants.size());
   for (std::size_t k = 0; k < input_names.size(); ++k)
     for (std::size_t v = 0; v < variants.size(); ++v) {
       Run& run = runs[v][k];
       try {
-        Console console(true, "");
-        RunOptions run_options;
-        run_options.threads = options.threads;
-        run_options.store = store.get();
-        const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
-        const RunResult result = run_plan(run.plan, steps, run_options, console);
-        if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
-            !unsettled.empty()) {
-          std::cerr << "plumb: " << unsettled << "\n";
-          settled = false;
-        }
+        const RunResult result = result_of(run, shared);
         figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
         if (!options.quiet)
           std::cerr << variants[v].name << " on " << input_names[k] << ": "
@@ -221,10 +262,11 @@ void compare(const Options& options) {
         throw CLI::RuntimeError(exit_failed);
       }
     }
+  cache.end(options.quiet);
   if (store) say_faults(*store);
   const Comparison comparison = plumb::compare(variant_names, input_names, figures);
   std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
-  if (!settled) throw CLI::RuntimeError(exit_unsettled);
+  if (!shared.settled) throw CLI::RuntimeError(exit_unsettled);
 }
 
 /// What `--variant` takes; the name becomes a folder's.
@@ -263,8 +305,9 @@ void add_compare(CLI::App& app) {
   command
       ->add_option("--set", options->sets,
                    "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
-                   "presets; may be given again")
-      ->allow_extra_args(false);
+                   "presets; a '$' in it is written '$$'; may be given again")
+      ->allow_extra_args(false)
+      ->check(fault_of_set);
   command
       ->add_option("--metric", options->figures.metrics,
                    "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "
@@ -285,6 +328,7 @@ void add_compare(CLI::App& app) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   options->store.add_to(*command);
+  options->cache_size.add_to(*command);
   command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
   command->add_flag("--quiet", options->quiet, "No line for each run");
   command->footer(

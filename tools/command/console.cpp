@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "plumb/data/io/plain_text.hpp"
-#include "plumb/report/weakness.hpp"
+#include "plumb/slam/report/weakness.hpp"
 
 namespace plumb::command {
 
@@ -65,7 +65,7 @@ void Console::event(const Event& event) {
       return draw();
     case Event::Kind::item:
       if (io::plain(event.step) == path_)
-        ++done_;  // not of one that passes its items on to this step
+        done_ += event.items;  // not of one that passes its items on to this step
       return draw();
     case Event::Kind::step_ends:
       clear();

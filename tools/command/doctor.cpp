@@ -10,6 +10,7 @@
 #include <set>
 
 #include "command.hpp"
+#include "plumb/data/counted.hpp"
 
 namespace plumb::command {
 namespace {
@@ -65,8 +66,8 @@ void add_doctor(CLI::App& app) {
         refused.push_back({module, fault});
     }
     std::cout << "\n"
-              << steps.all().size() << " steps in " << modules.size() << " modules; " << good
-              << " load\n";
+              << counted(steps.all().size(), "steps") << " in "
+              << counted(modules.size(), "modules") << "; " << good << " load\n";
     for (const Refusal& refusal : refused)
       std::cout << "refused: " << refusal.file.string() << "\n  " << refusal.why << "\n";
     if (!refused.empty()) throw CLI::RuntimeError(1);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "command.hpp"
-#include "plumb/report/evaluation.hpp"
+#include "plumb/slam/report/evaluation.hpp"
 
 namespace plumb::command {
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "licence_table.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/pipeline/yaml/former_names.hpp"
@@ -13,8 +14,8 @@
 namespace plumb::command {
 namespace {
 
-const char* word_of(Access access) {
-  switch (access) {
+std::string word_of(const InputDescription& input) {
+  switch (input.access) {
     case Access::item:
       return "";
     case Access::ends:
@@ -23,28 +24,25 @@ const char* word_of(Access access) {
       return "all, one at a time";
     case Access::several:
       return "any number, labelled";
-    case Access::relative:
-      return "only T_i_j of the edge";
-    case Access::over_edges:
-      return "says which edges there are";
-    case Access::this_edge:
-      return "only the edge itself";
+    case Access::part:
+      return input.sees;
   }
   return "";
 }
 
 std::string type_text(const Type& type) {
-  return std::string(type.name) +
-         (type.grain == Grain::whole ? "" : std::string(", one per ") + name_of(type.grain));
+  return type.name + (type.kind ? ", one per " + type.kind->name : "");
 }
 
-void print_step(const StepDescription& step) {
-  std::cout << step.name << "  version " << step.version << ", a " << name_of(step.kind) << "\n  "
+void print_step(const StepDescription& step, const Licence& licence) {
+  std::cout << step.name << "  version " << step.version << ", a " << step.base() << "\n  "
             << step.summary << "\n";
   if (!step.source.empty()) std::cout << "  Source: " << step.source << "\n";
+  std::cout << "  Licence of its module: " << licence.text() << "\n";
+  if (!licence.reason.empty()) std::cout << "      " << licence.reason << "\n";
   std::cout << "\nInputs\n";
   for (const auto& port : step.inputs) {
-    const std::string how = word_of(port.access);
+    const std::string how = word_of(port);
     std::cout << "  " << std::left << std::setw(14) << port.name << type_text(*port.type)
               << (how.empty() ? "" : " (" + how + ")") << (port.optional ? ", may be left out" : "")
               << "\n"
@@ -68,15 +66,26 @@ void print_step(const StepDescription& step) {
   if (step.parameters.empty()) std::cout << "  none\n";
 }
 
+void print_steps(const Registry& steps) {
+  for (const StepDescription* step : steps.all())
+    std::cout << std::left << std::setw(28) << step->name << std::setw(13) << step->base()
+              << step->summary << "\n";
+}
+
 }  // namespace
 
 void add_list(CLI::App& app) {
   auto* command = app.add_subcommand("list", "Lists the steps that pipelines can use");
-  command->callback([] {
+  auto licences = std::make_shared<bool>(false);
+  command->add_flag("--licences", *licences,
+                    "What whoever loads a module accepts: its own licence and those of the "
+                    "libraries that it brings, with its steps and the reason");
+  command->callback([licences] {
     const Registry steps = installed_steps();
-    for (const StepDescription* step : steps.all())
-      std::cout << std::left << std::setw(28) << step->name << std::setw(13) << name_of(step->kind)
-                << step->summary << "\n";
+    if (*licences)
+      print_licences(std::cout, steps);
+    else
+      print_steps(steps);
     for (const Refusal& refusal : steps.refused())
       std::cerr << "refused: " << refusal.file.string() << ": " << refusal.why << "\n";
   });
@@ -84,7 +93,7 @@ void add_list(CLI::App& app) {
 
 void add_inspect(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "inspect", "Shows one step's ports, parameters, units, ranges, defaults and source");
+      "inspect", "Shows one step's ports, parameters, units, ranges, defaults, source and licence");
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   command->add_option("STEP", *name, "FAMILY.NAME, as in `plumb list`")->required();
@@ -105,9 +114,9 @@ void add_inspect(CLI::App& app) {
                   " `plumb list` shows all.");
     }
     if (*as_json)
-      std::cout << step_json(*step) << "\n";
+      std::cout << step_json(*step, steps.licence_of(*step)) << "\n";
     else
-      print_step(*step);
+      print_step(*step, steps.licence_of(*step));
   });
 }
 

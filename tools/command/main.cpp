@@ -15,6 +15,7 @@
 #include "plumb/data/io/plain_text.hpp"
 #include "plumb/data/io/staged_folder.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 
@@ -73,6 +74,31 @@ int said() {
   return plumb::command::exit_unsettled;
 }
 
+/// All that stands before and behind the sub-commands.
+void set_up(CLI::App& app) {
+  app.footer(
+      "Start with:\n"
+      "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
+      "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
+      "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
+      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong: an option, its "
+      "value, or two that do not go together;\n"
+      "3 a step refused its input or failed while running;\n"
+      "4 done and all results in place, but something about them is not as it should be: standard "
+      "output did not take what was to be said,\n"
+      "or the disk did not take the end of it; it is said which.");
+  app.require_subcommand(1);
+  app.fallthrough();  // what stands below serves behind the sub-command as well
+  app.add_option("--plugin-path", plumb::command::plugin_path,
+                 "A further folder with modules (also PLUMB_PLUGIN_PATH), before or behind the "
+                 "command; may be given again")
+      ->allow_extra_args(false);
+  app.set_version_flag("--version", PLUMB_VERSION);
+  app.failure_message([](const CLI::App* program, const CLI::Error& error) {
+    return "plumb: " + plumb::command::usage_sentence(*program, error) + "\n";
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,25 +107,12 @@ int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     std::cerr << "plumb: this build needs a processor with AVX2 and FMA; configure with "
                  "-DPLUMB_ARCH= for any x86-64\n";
-    return 1;
+    return plumb::command::exit_refused;
   }
   const plumb::command::PlainStream out(std::cout), err(std::cerr);
   CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.",
                "plumb"};
-  app.footer(
-      "Start with:\n"
-      "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
-      "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
-      "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
-      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong; 3 a step refused "
-      "its input or failed while running;\n"
-      "4 done and all results in place, but something about them is not as it should be: standard "
-      "output did not take what was to be said,\n"
-      "or the disk did not take the end of it; it is said which.");
-  app.require_subcommand(1);
-  app.add_option("--plugin-path", plumb::command::plugin_path,
-                 "A further folder with modules (also PLUMB_PLUGIN_PATH)");
-  app.set_version_flag("--version", PLUMB_VERSION);
+  set_up(app);
   plumb::command::add_run(app);
   plumb::command::add_check(app);
   plumb::command::add_resolve(app);
@@ -121,14 +134,17 @@ int main(int argc, char** argv) {
     return e.get_exit_code();
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? said() : plumb::command::exit_wrong_command_line;
+  } catch (const plumb::command::UsageError& e) {
+    std::cerr << "plumb: " << e.what() << '\n';
+    return plumb::command::exit_wrong_command_line;
   } catch (const plumb::PipelineError& e) {
     std::cerr << e.what() << '\n';
-    return 1;
+    return plumb::command::exit_refused;
   } catch (const plumb::io::WriteError& e) {
     std::cerr << "plumb: " << e.what() << '\n';
     return plumb::command::exit_failed;
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << '\n';
-    return 1;
+    return plumb::command::exit_refused;
   }
 }

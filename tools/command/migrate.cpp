@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "command.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "replaced_file.hpp"
 
@@ -32,8 +33,7 @@ void migrate(const Options& options) {
   if (places == 0)
     std::cout << options.file.string() << ": nothing to do, all its names are those of now\n";
   else
-    std::cout << to.string() << ": written, with " << places
-              << (places == 1 ? " change\n" : " changes\n");
+    std::cout << to.string() << ": written, with " << counted(places, "changes") << "\n";
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 
 namespace plumb::command {
 
+/// What is wrong with NAME=VALUE behind --set, whatever the pipeline; "" for nothing.
+std::string fault_of_set(const std::string& text);
+
 struct PipelineOptions {
   std::filesystem::path file;
   Overlay overlay;
@@ -21,9 +24,10 @@ struct PipelineOptions {
     command
         .add_option("--set", overlay.sets,
                     "A parameter, a row or a step's parameter: input=DIR, voxel_size=0.2m, "
-                    "coarse.kept.pairs_per_cluster=30; "
-                    "may be given again")
-        ->allow_extra_args(false);
+                    "coarse.kept.pairs_per_cluster=30; a '$' in it is written '$$'; may be given "
+                    "again")
+        ->allow_extra_args(false)
+        ->check(fault_of_set);
   }
 };
 

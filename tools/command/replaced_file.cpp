@@ -72,7 +72,7 @@ void replace_file(const fs::path& file, const std::string& text, const fs::path&
   fs::path place = fs::weakly_canonical(fs::absolute(file), error);
   if (error) place = fs::absolute(file);
   if (const std::string other = io::other_than_file(place); !other.empty())
-    throw Error(file.string() + ": is " + other + "; name a file");
+    throw Error(file.string() + ": is " + other + "; name a file with -o");
   struct stat status {};
   const bool there = stat(place.c_str(), &status) == 0;
   if (there && access(place.c_str(), W_OK) != 0)

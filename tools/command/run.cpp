@@ -3,12 +3,14 @@
 #include <iostream>
 #include <memory>
 
+#include "cache_size.hpp"
 #include "console.hpp"
 #include "executor_options.hpp"
 #include "exit_guard.hpp"
 #include "interrupt.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/amount.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/engine/observe/event_file.hpp"
@@ -19,6 +21,7 @@
 #include "store_option.hpp"
 #include "summary.hpp"
 #include "untrusted.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -27,6 +30,7 @@ struct Options {
   PipelineOptions pipeline;
   std::filesystem::path output, locked, log, events, trace;
   StoreOption store;
+  CacheSize cache_size;
   ExecutorOptions executor;
   Untrusted untrusted;
   std::string memory;
@@ -89,16 +93,16 @@ void say_of_store(const Store& store, const RunResult& result, bool quiet) {
   if (quiet) return;
   std::size_t made = 0, reused = 0;
   for (const StepTime& time : result.times) made += time.items, reused += time.remembered;
-  std::cerr << "cache: " << reused << " results reused, " << made << " made\n";
+  std::cerr << "cache: " << counted(reused, "results reused") << ", " << made << " made\n";
 }
 
 constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
 
 std::uint64_t memory_of_text(const std::string& text) {
   if (text.empty()) return 0;
-  const std::uint64_t bytes = bytes_of_text("--memory", text);
+  const std::uint64_t bytes = usage([&] { return bytes_of_text("--memory", text); });
   if (bytes < least_memory)
-    throw Error("--memory " + text + ": is too little to run in; give 256MiB or more");
+    throw UsageError("--memory " + text + ": is too little to run in; give 256MiB or more");
   return bytes;
 }
 
@@ -108,7 +112,8 @@ void require_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& value : option->results())
       if (value.empty())
-        throw Error(option->get_name() + ": its value is empty; give one, or leave the option out");
+        throw UsageError(option->get_name() +
+                         ": its value is empty; give one, or leave the option out");
 }
 
 /// What leaves memory, and what workers make, goes through the cache.
@@ -120,16 +125,36 @@ void require_store(const Options& options, const Store* store) {
                       : options.explain              ? "--explain"
                                                      : nullptr;
   if (needs)
-    throw Error(std::string("a cache is needed for ") + needs +
-                ", but there is none; give --cache-dir DIR");
+    throw UsageError(std::string("a cache is needed for ") + needs +
+                     (options.store.no_cache ? ", and --no-cache is given; leave one of them out"
+                                             : ", but there is none; give --cache-dir DIR"));
+}
+
+std::vector<SideFile> side_files_of(const Options& options) {
+  return {{"--log", options.log, "log", log_mark},
+          {"--events", options.events, "events", EventLines::mark},
+          {"--trace", options.trace, "trace", TraceFile::mark}};
+}
+
+/// What is said of a run whose results are in place.
+void report(const Options& options, const Plan& plan, const RunResult& result, const Store* store) {
+  if (options.explain)
+    for (const Explained& step : result.explained) std::cout << step.text() << "\n";
+  if (store) say_of_store(*store, result, options.quiet);
+  if (options.quiet)
+    print_weak(std::cerr, result, false);
+  else
+    print_summary(std::cout, plan, result, options.output, options.times);
 }
 
 void run(Options& options) {
   options.store.require_one_meaning();
-  options.executor.require_one_meaning();
+  options.cache_size.require_one_meaning(options.store);
+  const std::uint64_t memory = memory_of_text(options.memory);
+  options.executor.require_one_meaning(options.threads, memory);
+  if (options.store.none()) require_store(options, nullptr);
   options.untrusted.before_reading(options.pipeline);
   if (options.verify_inputs) io::identify_files_by(io::FileIdentity::content);
-  const std::uint64_t memory = memory_of_text(options.memory);
   const Registry steps = options.untrusted.steps();
   auto [plan, record] =
       options.locked.empty()
@@ -139,15 +164,13 @@ void run(Options& options) {
   options.untrusted.before_running(plan, steps, {options.output, options.store.folder()});
   const ExitGuard while_loading;
   preflight(plan, steps);
-  const std::vector<SideFile> side_files = {
-      {"--log", options.log, "log", log_mark},
-      {"--events", options.events, "events", EventLines::mark},
-      {"--trace", options.trace, "trace", TraceFile::mark}};
+  const std::vector<SideFile> side_files = side_files_of(options);
   require_elsewhere(side_files, options.output);
-  require_apart(options.store.folder(), options.output);
+  require_apart(options.store, options.output);
   remove_staging_when_interrupted();
   const std::unique_ptr<Store> store = options.store.open();
   require_store(options, store.get());
+  BoundedCache cache(options.cache_size, store.get());
   const auto executor = options.executor.make(options.threads, memory, options.verify_inputs,
                                               options.store.refresh, store.get());
   if (options.locked.empty()) record = record_of(plan, options.verify_inputs);
@@ -162,6 +185,7 @@ void run(Options& options) {
     RunOptions run_options;
     run_options.threads = options.threads;
     run_options.store = store.get(), run_options.fresh = options.store.refresh;
+    run_options.store_bound = cache.bound();
     run_options.memory = memory, run_options.executor = executor.get();
     const RunResult result = run_plan(plan, steps, run_options, all);
     if (const std::string changed = changed_input(record); !changed.empty())
@@ -170,13 +194,8 @@ void run(Options& options) {
           "run it again (with --refresh where files got back their former sizes and times)");
     unsettled = folder.fill(std::move(record), result);
     listeners.say_of_files(options.log);
-    if (options.explain)
-      for (const Explained& step : result.explained) std::cout << step.text() << "\n";
-    if (store) say_of_store(*store, result, options.quiet);
-    if (options.quiet)
-      print_weak(std::cerr, result, false);
-    else
-      print_summary(std::cout, plan, result, options.output, options.times);
+    cache.end(options.quiet);
+    report(options, plan, result, store.get());
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
     throw CLI::RuntimeError(exit_failed);
@@ -184,6 +203,40 @@ void run(Options& options) {
   if (unsettled.empty()) return;
   std::cerr << "plumb: " << unsettled << "\n";
   throw CLI::RuntimeError(exit_unsettled);
+}
+
+/// What the run tells, on the screen and in files beside the results.
+void add_reports(CLI::App& command, Options& options) {
+  command.add_flag("--quiet", options.quiet, "Only warnings and errors");
+  command.add_flag("--times,!--no-times", options.times,
+                   "Show the time and memory that each step took (unless --no-times or --quiet)");
+  command.add_option("--log", options.log,
+                     "Also write progress and notes, with the time of day, to this file");
+  command.add_option(
+      "--events", options.events,
+      "Also write all that happens to this file, as it happens: a JSON object a line");
+  command.add_option(
+      "--trace", options.trace,
+      "Also write which item was made when and by which thread, for ui.perfetto.dev");
+}
+
+/// --locked, which stands for a pipeline and all that goes with one.
+void add_locked(CLI::App& command, Options& options) {
+  command.add_flag("--verify-inputs", options.verify_inputs,
+                   "Read the inputs' files to know them by content, not by size and time alone");
+  auto* pipeline = command.get_option("PIPELINE")->required(false);
+  command
+      .add_option("--locked", options.locked,
+                  "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
+                  "takes no PIPELINE")
+      ->excludes(pipeline)
+      ->excludes("--preset")
+      ->excludes("--set");
+  command.get_option("--untrusted")
+      ->excludes("--locked")
+      ->excludes("--isolate")
+      ->excludes("--executor")
+      ->excludes("--executor-profile");
 }
 
 }  // namespace
@@ -206,6 +259,7 @@ void add_run(CLI::App& app) {
       ->capture_default_str();
   options->store.add_to(*command);
   options->store.add_usage_to(*command);
+  options->cache_size.add_to(*command);
   command->add_flag("--explain", options->explain,
                     "Say of each step whether its results were reused, and the first thing that "
                     "differs from the last run");
@@ -214,32 +268,8 @@ void add_run(CLI::App& app) {
       "Bound of resident memory, such as 2GiB: what does not fit waits in the cache");
   options->executor.add_to(*command);
   options->untrusted.add_to(*command);
-  command->add_flag("--quiet", options->quiet, "Only warnings and errors");
-  command->add_flag("--times,!--no-times", options->times,
-                    "Show the time and memory that each step took (unless --no-times or --quiet)");
-  command->add_option("--log", options->log,
-                      "Also write progress and notes, with the time of day, to this file");
-  command->add_option(
-      "--events", options->events,
-      "Also write all that happens to this file, as it happens: a JSON object a line");
-  command->add_option(
-      "--trace", options->trace,
-      "Also write which item was made when and by which thread, for ui.perfetto.dev");
-  command->add_flag("--verify-inputs", options->verify_inputs,
-                    "Read the inputs' files to know them by content, not by size and time alone");
-  auto* pipeline = command->get_option("PIPELINE")->required(false);
-  command
-      ->add_option("--locked", options->locked,
-                   "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
-                   "takes no PIPELINE")
-      ->excludes(pipeline)
-      ->excludes("--preset")
-      ->excludes("--set");
-  command->get_option("--untrusted")
-      ->excludes("--locked")
-      ->excludes("--isolate")
-      ->excludes("--executor")
-      ->excludes("--executor-profile");
+  add_reports(*command, *options);
+  add_locked(*command, *options);
   command->footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set "
       "input=DIR -o OUT\n"

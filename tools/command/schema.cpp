@@ -41,7 +41,7 @@ void add_schema(CLI::App& app) {
     if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
       throw Error(file.string() +
                   ": is there already and is not a schema of Plumb; move it away, or give another "
-                  "folder");
+                  "folder with -o");
     std::ofstream out(file);
     out << text;
     out.close();

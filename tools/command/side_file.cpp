@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/engine/record/run_record.hpp"
 
 namespace plumb::command {
 namespace fs = std::filesystem;
@@ -20,6 +21,24 @@ fs::path place_of(const fs::path& path) {
 bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
          folder.end();
+}
+
+/// Whether a folder could be made or used by who marks his with the file `mark`, as far as one look
+/// tells.
+bool may_be_of(const fs::path& folder, const char* mark) {
+  std::error_code error;
+  if (folder == folder.root_path()) return false;
+  if (!fs::exists(folder, error)) return true;
+  return fs::is_directory(folder, error) &&
+         (fs::is_empty(folder, error) || fs::exists(folder / mark, error));
+}
+
+bool may_hold_results(const fs::path& output) { return may_be_of(place_of(output), lock_name); }
+
+[[noreturn]] void refuse_output(const fs::path& output, const std::string& inside) {
+  throw Error("-o " + output.string() +
+              ": the results get a folder of their own, and this one holds " + inside +
+              "; give another folder");
 }
 
 /// The first bytes of a file.
@@ -39,6 +58,8 @@ void require_elsewhere(const std::vector<SideFile>& files, const fs::path& outpu
     if (files[k].file.empty()) continue;
     const auto file = place_of(files[k].file);
     const std::string place = files[k].option + " " + files[k].file.string() + ": ";
+    if (within(file, folder) && !may_hold_results(output))
+      refuse_output(output, "the file of " + files[k].option);
     if (within(file, folder))
       throw Error(place +
                   "lies in the folder for the results, which holds what steps wrote alone; name a "
@@ -49,16 +70,20 @@ void require_elsewhere(const std::vector<SideFile>& files, const fs::path& outpu
   }
 }
 
-void require_apart(const fs::path& store, const fs::path& output) {
-  if (store.empty()) return;
-  const auto results = place_of(store), folder = place_of(output);
-  if (within(results, folder))
-    throw Error("--cache-dir " + store.string() +
+void require_apart(const StoreOption& store, const fs::path& output) {
+  if (store.folder().empty()) return;
+  const auto results = place_of(store.folder()), folder = place_of(output);
+  if (within(results, folder)) {
+    if (!store.by_option() || !may_hold_results(output)) refuse_output(output, store.title());
+    throw Error(store.title() +
                 ": lies in the folder for the results, which holds what steps wrote alone; name a "
                 "folder beside it");
-  if (within(folder, results))
-    throw Error("-o " + output.string() + ": lies in the cache " + store.string() +
-                ", which holds its own files alone; give another folder");
+  }
+  if (!within(folder, results)) return;
+  const bool is_cache = may_be_of(results, store_mark);
+  throw Error((is_cache ? "-o " + output.string() + ": lies in " + store.title()
+                        : store.title() + ": -o " + output.string() + " lies in it") +
+              ", and a cache holds its own files alone; give another folder");
 }
 
 void begin(const SideFile& side) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "store_option.hpp"
+
 namespace plumb::command {
 
 struct SideFile {
@@ -15,12 +17,14 @@ struct SideFile {
 };
 
 /// Makes sure that none lies in the folder for the results, which holds what the run made and
-/// nothing else, or is another of them. Throws Error.
+/// nothing else, or is another of them. Throws Error, which names -o when that is a place for no
+/// results anyhow.
 void require_elsewhere(const std::vector<SideFile>& files, const std::filesystem::path& output);
 
-/// Makes sure that neither the store (empty: there is none) nor the folder for the results lies in
-/// the other. Throws Error.
-void require_apart(const std::filesystem::path& store, const std::filesystem::path& output);
+/// Makes sure that neither the cache nor the folder for the results lies in the other. Throws
+/// Error, which names the one that is to be changed: what no option says is where it always is, and
+/// what holds other things is wrong by itself.
+void require_apart(const StoreOption& store, const std::filesystem::path& output);
 
 /// Empties the file; an earlier one of the same kind is replaced, pipes and devices are left as
 /// they are. Throws Error: something else is there; it cannot be written.

@@ -18,11 +18,13 @@
 
 #include "command/command.hpp"
 #include "interrupt.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/data/io/trajectory_text.hpp"
+#include "plumb/slam/io/trajectory_text.hpp"
 #include "simulate/indoor.hpp"
 #include "simulate/names.hpp"
 #include "simulate/route.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace {
@@ -64,7 +66,7 @@ bool is_indoor(const Arguments& arguments) {
   return simulate::is_indoor_scene(arguments.scene);
 }
 
-/// Throws Error for a given option that scenes of this kind do not have.
+/// Throws UsageError for a given option that scenes of this kind do not have.
 template <class S>
 void refuse_others(const Arguments& arguments, const std::vector<simulate::OptionOf<S>>& options,
                    const std::string& kind) {
@@ -72,7 +74,7 @@ void refuse_others(const Arguments& arguments, const std::vector<simulate::Optio
   for (const auto& option : options) known += std::string(known.empty() ? "" : ", ") + option.key;
   for (const auto& [key, text] : arguments.options)
     if (std::none_of(options.begin(), options.end(), [&](const auto& o) { return key == o.key; }))
-      throw Error("--" + key + ": " + kind + " has no such option; its options are " + known);
+      throw UsageError("--" + key + ": " + kind + " has no such option; its options are " + known);
 }
 
 simulate::Scene scene_of(const Arguments& arguments) {
@@ -86,7 +88,9 @@ simulate::Scene scene_of(const Arguments& arguments) {
   }
   for (const simulate::Option& option : simulate::options())
     if (const auto given = arguments.options.find(option.key); given != arguments.options.end())
-      simulate::set(scene, option, given->second, true, std::string("--") + option.key);
+      usage([&] {
+        simulate::set(scene, option, given->second, true, std::string("--") + option.key);
+      });
   if (arguments.options.contains("path") && simulate::follows_file(scene))
     scene.path = std::filesystem::absolute(scene.path).string();
   if (!arguments.drift_from.empty()) {
@@ -99,7 +103,7 @@ simulate::Scene scene_of(const Arguments& arguments) {
 simulate::IndoorScene indoor_scene_of(const Arguments& arguments) {
   refuse_others(arguments, simulate::indoor_options(), "a scene indoors");
   if (!arguments.drift_from.empty())
-    throw Error(
+    throw UsageError(
         "--drift-from: a scene indoors has wheels of its own; say how far they err by "
         "--drift");
   simulate::IndoorScene scene;
@@ -109,7 +113,9 @@ simulate::IndoorScene indoor_scene_of(const Arguments& arguments) {
     scene = simulate::read_indoor_scene(arguments.scene);
   for (const simulate::IndoorOption& option : simulate::indoor_options())
     if (const auto given = arguments.options.find(option.key); given != arguments.options.end())
-      simulate::set_option(scene, option, given->second, true, std::string("--") + option.key);
+      usage([&] {
+        simulate::set_option(scene, option, given->second, true, std::string("--") + option.key);
+      });
   return scene;
 }
 
@@ -121,22 +127,20 @@ struct Made {
 Made made_by(const Arguments& arguments,
              const std::function<void(std::size_t, std::size_t)>& progress) {
   remove_staging_when_interrupted();
-  char line[256];
+  char rest[256];
   if (is_indoor(arguments)) {
     const simulate::IndoorSummary made = simulate::simulate(
         indoor_scene_of(arguments), arguments.output, arguments.threads, progress);
-    std::snprintf(line, sizeof line, "%zu scans (%zu lost), %.0f MB, %.1f m of path, drift %.2f m",
-                  made.scans, made.lost, 1e-6 * static_cast<double>(made.bytes), made.length,
-                  made.drift);
-    return {line, made.unsettled};
+    std::snprintf(rest, sizeof rest, " (%zu lost), %.0f MB, %.1f m of path, drift %.2f m",
+                  made.lost, 1e-6 * static_cast<double>(made.bytes), made.length, made.drift);
+    return {counted(made.scans, "scans") + rest, made.unsettled};
   }
   const simulate::Summary made =
       simulate::simulate(scene_of(arguments), arguments.output, arguments.threads, progress);
-  std::snprintf(line, sizeof line,
-                "%zu frames, %.1f million points, %.0f MB, %.1f m of path, drift %.2f m",
-                made.frames, 1e-6 * static_cast<double>(made.points),
-                1e-6 * static_cast<double>(made.bytes), made.length, made.drift);
-  return {line, made.unsettled};
+  std::snprintf(rest, sizeof rest, ", %.1f million points, %.0f MB, %.1f m of path, drift %.2f m",
+                1e-6 * static_cast<double>(made.points), 1e-6 * static_cast<double>(made.bytes),
+                made.length, made.drift);
+  return {counted(made.frames, "frames") + rest, made.unsettled};
 }
 
 void run(const Arguments& arguments) {

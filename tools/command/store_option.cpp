@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "plumb/data/error.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace fs = std::filesystem;
@@ -44,42 +45,50 @@ void StoreOption::add_usage_to(CLI::App& command) {
 
 void StoreOption::require_one_meaning() const {
   if (!given.empty() && !former.empty())
-    throw Error("--store " + former +
-                ": is the former name of --cache-dir, which is given too; leave it out");
-  const std::string& folder = given.empty() ? former : given;
+    throw UsageError("--store " + former +
+                     ": is the former name of --cache-dir, which is given too; leave it out");
   if (no_cache && refresh)
-    throw Error(
+    throw UsageError(
         "--no-cache: keeps nothing, and --refresh makes all anew to keep it; leave one of them "
         "out");
+  const std::string& folder = given.empty() ? former : given;
+  const std::string option = (given.empty() ? "--store " : "--cache-dir ") + folder;
   if (no_cache && !folder.empty() && folder != "none")
-    throw Error("--cache-dir " + folder + ": is not used with --no-cache; leave one of them out");
+    throw UsageError(option + ": is not used with --no-cache; leave one of them out");
   if (refresh && folder == "none")
-    throw Error(
-        "--refresh: makes all anew to keep it, and --cache-dir none keeps nothing; leave one of "
-        "them out");
+    throw UsageError("--refresh: makes all anew to keep it, and " + option +
+                     " keeps nothing; leave one of them out");
 }
 
-std::string StoreOption::meant() const {
-  if (no_cache) return "none";
-  for (const std::string& said : {given, former, otherwise})
-    if (!said.empty()) return said;
+StoreOption::Meant StoreOption::meant() const {
+  if (no_cache) return {"none", "--no-cache"};
+  if (!given.empty()) return {given, "--cache-dir " + given};
+  if (!former.empty()) return {former, "--store " + former};
+  if (!otherwise.empty()) return {otherwise, ""};
   for (const char* name : {"PLUMB_CACHE_DIR", "PLUMB_STORE"})
-    if (const char* value = std::getenv(name); value && *value) return value;
-  return "";
+    if (const char* value = std::getenv(name); value && *value)
+      return {value, std::string(name) + "=" + value};
+  return {};
 }
 
 fs::path StoreOption::folder() const {
-  const std::string said = meant();
+  const std::string said = meant().folder;
   return said == "none" ? fs::path() : said.empty() ? user_cache_folder() : fs::path(said);
 }
 
+std::string StoreOption::title() const {
+  const std::string by = meant().by;
+  return by.empty() ? "the cache " + folder().string() : by;
+}
+
 std::unique_ptr<Store> StoreOption::open(const fs::path& at) const {
-  return std::make_unique<Store>(at, StoreRole::driver, trusted ? Whose::anyones : Whose::own);
+  return std::make_unique<Store>(at, StoreRole::driver, trusted ? Whose::anyones : Whose::own,
+                                 title());
 }
 
 std::unique_ptr<Store> StoreOption::open() const {
   if (none()) return nullptr;
-  if (!meant().empty()) return open(folder());
+  if (!meant().folder.empty()) return open(folder());
   const auto go_without = [](const std::string& why) {
     std::cerr << "cache: nothing is kept, " << why
               << "; say where by --cache-dir DIR, or say --no-cache\n";

@@ -23,12 +23,17 @@ struct StoreOption {
 
   void add_to(CLI::App& command);        ///< --cache-dir and --trust-cache
   void add_usage_to(CLI::App& command);  ///< --refresh and --no-cache
-  /// Throws Error for options that do not go together.
+  /// Throws UsageError for options that do not go together.
   void require_one_meaning() const;
 
-  bool none() const { return meant() == "none"; }
+  bool none() const { return meant().folder == "none"; }
+  /// Whether an option says which.
+  bool by_option() const { return !given.empty() || !former.empty(); }
   /// The folder that is meant; empty for none, and where the user has no cache folder.
   std::filesystem::path folder() const;
+  /// What to change for another folder: "--cache-dir DIR", "PLUMB_CACHE_DIR=DIR"; "the cache DIR"
+  /// when nothing was said.
+  std::string title() const;
   /// Opens it. None for `none`; and, with a note on standard error, where the user's cache folder
   /// cannot be used. Throws Error for a folder that was given.
   std::unique_ptr<Store> open() const;
@@ -36,7 +41,11 @@ struct StoreOption {
   std::unique_ptr<Store> open(const std::filesystem::path& folder) const;
 
  private:
-  std::string meant() const;  ///< a folder, "none", or "" for the user's cache folder
+  struct Meant {
+    std::string folder;  ///< "none" for none, "" for the user's cache folder
+    std::string by;      ///< what says so; "" when nothing does
+  };
+  Meant meant() const;
 };
 
 /// $XDG_CACHE_HOME/plumb or ~/.cache/plumb; empty where neither is known.

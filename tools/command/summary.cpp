@@ -4,8 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include "plumb/report/stages.hpp"
-#include "plumb/report/weakness.hpp"
+#include "plumb/data/counted.hpp"
+#include "plumb/slam/report/made_metrics.hpp"
+#include "plumb/slam/report/stages.hpp"
+#include "plumb/slam/report/weakness.hpp"
 
 namespace plumb::command {
 namespace {
@@ -24,7 +26,7 @@ void print_numbers(std::ostream& out, const Plan& plan, const RunResult& result)
   const auto note = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
-  for (const MadeMetrics& made : result.metrics) {
+  for (const MadeMetrics& made : metrics_of(result)) {
     const auto step = std::find_if(plan.steps.begin(), plan.steps.end(),
                                    [&](const PlannedStep& s) { return s.path == made.path; });
     const auto stages = stages_of(*step);
@@ -78,7 +80,8 @@ void print_summary(std::ostream& out, const Plan& plan, const RunResult& result,
   print_numbers(out, plan, result);
   out << "\n";
   for (const LoopEnd& loop : result.loops)
-    out << loop.path << ": " << loop.passes << " passes, ended because " << loop.why << "\n";
+    out << loop.path << ": " << counted(loop.passes, "passes") << ", ended because " << loop.why
+        << "\n";
   for (const StepCount& count : result.counts) out << "counted: " << count.text() << "\n";
   print_weak(out, result, true);
   if (times) print_times(out, result);

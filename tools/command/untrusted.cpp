@@ -13,6 +13,7 @@
 #include "plumb/data/io/fence.hpp"
 #include "plumb/data/io/staged_folder.hpp"
 #include "plumb/plugin/trusted_file.hpp"
+#include "usage.hpp"
 
 namespace plumb::command {
 namespace fs = std::filesystem;
@@ -23,9 +24,9 @@ constexpr std::uint64_t least_memory = std::uint64_t{256} << 20;
 /// Memory that is asked for beyond `bytes` is refused, which fails the step; a crash writes no
 /// core.
 void bound_memory(const std::string& text) {
-  const std::uint64_t bytes = bytes_of_text("--max-memory", text);
+  const std::uint64_t bytes = usage([&] { return bytes_of_text("--max-memory", text); });
   if (bytes < least_memory)
-    throw Error("--max-memory " + text + ": is too little to run in; give 256MiB or more");
+    throw UsageError("--max-memory " + text + ": is too little to run in; give 256MiB or more");
   const rlimit limit{bytes, bytes}, no_core{0, 0};
   setrlimit(RLIMIT_DATA, &limit);
   setrlimit(RLIMIT_CORE, &no_core);
@@ -33,9 +34,9 @@ void bound_memory(const std::string& text) {
 
 /// The process ends when the time is over, whatever it waits for.
 void bound_time(const std::string& text) {
-  const auto time = age_of_text("--max-time", text);
+  const auto time = usage([&] { return age_of_text("--max-time", text); });
   if (time.count() <= 0)
-    throw Error("--max-time " + text + ": give a time above zero, as in 10min");
+    throw UsageError("--max-time " + text + ": give a time above zero, as in 10min");
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(
@@ -75,9 +76,10 @@ void Untrusted::add_to(CLI::App& command) {
 void Untrusted::before_reading(PipelineOptions& pipeline) const {
   if (!on_) return;
   if (!plugin_path.empty())
-    throw Error("--plugin-path " + plugin_path.front().string() +
-                ": a stranger's pipeline gets no modules but those that Plumb came with; leave one "
-                "of --plugin-path and --untrusted out");
+    throw UsageError(
+        "--plugin-path " + plugin_path.front().string() +
+        ": a stranger's pipeline gets no modules but those that Plumb came with; leave one "
+        "of --plugin-path and --untrusted out");
   bound_memory(memory_);
   bound_time(time_);
   pipeline.overlay.untrusted = true;

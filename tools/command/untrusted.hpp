@@ -16,8 +16,8 @@ class Untrusted {
   explicit operator bool() const { return on_; }
 
   /// Before the pipeline is read: bounds, and a fence round the folders of the pipeline and presets
-  /// that were named, and of the modules. Nothing without the flag. Throws Error: bounds that are
-  /// none, --plugin-path.
+  /// that were named, and of the modules. Nothing without the flag. Throws UsageError: bounds that
+  /// are none, --plugin-path.
   void before_reading(PipelineOptions& pipeline) const;
   /// The steps of this installation; also of --plugin-path and PLUMB_PLUGIN_PATH without the flag.
   Registry steps() const;

@@ -11,6 +11,7 @@
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/engine/remote/slurm/chunk.hpp"
 #include "plumb/engine/remote/worker/service.hpp"
+#include "usage.hpp"
 #include "worker_command.hpp"
 
 namespace plumb::command {
@@ -31,7 +32,7 @@ bool is_connected(const Options& options) {
 
 void run(Options& options) {
   if (options.task.empty() && !is_connected(options))
-    throw Error(
+    throw UsageError(
         "worker: is started by 'plumb run --executor process' and by Slurm jobs of 'plumb run "
         "--executor slurm', not by hand");
   Store store(options.worker.store, StoreRole::worker,

@@ -55,7 +55,7 @@ TEST(Building, TheWayStaysClearOfWallsAndComesBackToItsStart) {
       const Building building = build({name, length, 5, 4, seed});
       const IndoorDrive drive = drive_indoors(building.way, {0.2, 0.1, 1, seed});
       double least = 9;
-      for (const Planar& pose : drive.poses)
+      for (const PlanarPose& pose : drive.poses)
         least = std::min(least, clearance(building.walls, {pose.x, pose.y}));
       EXPECT_GT(least, 0.35) << name << " seed " << seed;
       EXPECT_EQ(building.way.front(), Eigen::Vector2d(0, 0));
@@ -74,13 +74,13 @@ TEST(Building, TheScannerNeverLooksOutOfABuilding) {
   for (const std::string& name : indoor_names()) {
     const Building building = build({name, 30, 5, 8, 2});
     const Laser2d laser({6.283185307179586, 720, 500, 0}, 1);
-    for (const Planar& pose : drive_indoors(building.way, {0.2, 0.1, 0.2, 1}).poses)
+    for (const PlanarPose& pose : drive_indoors(building.way, {0.2, 0.1, 0.2, 1}).poses)
       for (const double range : laser.exact(building.walls, pose)) EXPECT_LT(range, 100);
   }
 }
 
 /// The greatest difference of ranges seen at two poses.
-double difference(const Building& building, const Planar& a, const Planar& b) {
+double difference(const Building& building, const PlanarPose& a, const PlanarPose& b) {
   const Laser2d laser({4.71238898038469, 541, 10, 0}, 1);
   const std::vector<double> one = laser.exact(building.walls, a),
                             other = laser.exact(building.walls, b);
@@ -94,9 +94,9 @@ TEST(Building, CorridorsThatLookAlikeGiveEqualRangesAtEqualPlaces) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Building building = build({"lookalike", 24, 5, 8, seed});
     for (double s = 1.37; s < 15; s += 1.13) {
-      const Planar first{s, 0.05, 0.02};
-      const Planar turned{16 - s, 5 - 0.05, 0.02 + std::numbers::pi};
-      const Planar third{s, 10.05, 0.02};
+      const PlanarPose first{s, 0.05, 0.02};
+      const PlanarPose turned{16 - s, 5 - 0.05, 0.02 + std::numbers::pi};
+      const PlanarPose third{s, 10.05, 0.02};
       EXPECT_LT(difference(building, first, third), 1e-6) << "seed " << seed << " at " << s;
       EXPECT_LT(difference(building, first, turned), 1e-6) << "seed " << seed << " at " << s;
       EXPECT_GT(difference(building, first, {s + 0.5, 0.05, 0.02}), 0.05);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::simulate {
 

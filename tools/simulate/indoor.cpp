@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <mutex>
 
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"
 
@@ -25,8 +25,8 @@ void append(std::string& line, double value, int decimals) {
   line.append(text, end.ptr);
 }
 
-void append(std::string& line, const Planar& pose) {
-  for (const double value : {pose.x, pose.y, pose.heading}) append(line, value, 6);
+void append(std::string& line, const PlanarPose& pose) {
+  for (const double value : {pose.x, pose.y, pose.yaw}) append(line, value, 6);
 }
 
 /// The last three fields of every line: the stamp, the host, the stamp of the logger.
@@ -40,10 +40,10 @@ void finish(std::string& line, double stamp) {
 /// `ODOM x y theta tv rv accel`.
 std::string odom_line(const IndoorStage& stage, std::size_t k) {
   std::string line = "ODOM";
-  const Planar &pose = stage.odometry[k], &before = stage.odometry[k > 0 ? k - 1 : 0];
+  const PlanarPose &pose = stage.odometry[k], &before = stage.odometry[k > 0 ? k - 1 : 0];
   append(line, pose);
   append(line, stage.scene.rate * std::hypot(pose.x - before.x, pose.y - before.y), 6);
-  append(line, stage.scene.rate * wrapped(pose.heading - before.heading), 6);
+  append(line, stage.scene.rate * planar::wrapped(pose.yaw - before.yaw), 6);
   append(line, 0, 6);
   finish(line, stage.drive.stamps[k]);
   return line;
@@ -92,12 +92,12 @@ std::string plan_text(const std::vector<Wall>& walls) {
   return text;
 }
 
-Trajectory kept(const std::vector<Planar>& poses, const IndoorStage& stage) {
+Trajectory kept(const std::vector<PlanarPose>& poses, const IndoorStage& stage) {
   Trajectory trajectory;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     if (stage.lost[k]) continue;
     trajectory.stamps.push_back(stage.drive.stamps[k]);
-    trajectory.T_world_frame.push_back(poses[k].pose());
+    trajectory.T_world_frame.push_back(in_space(poses[k]));
   }
   return trajectory;
 }
@@ -120,7 +120,7 @@ IndoorStage set_up(const IndoorScene& given) {
   IndoorDrive drive =
       drive_indoors(building.way, {scene.speed, scene.turn_rate, scene.rate, mix(seed, 4)});
   if (!scene.drift) scene.drift = usual_drift(scene, drive);
-  std::vector<Planar> odometry = wheel_odometry(drive.poses, *scene.drift, mix(seed, 5));
+  std::vector<PlanarPose> odometry = wheel_odometry(drive.poses, *scene.drift, mix(seed, 5));
   std::vector<char> lost =
       lost_scans(drive, {scene.drop_in_turns, scene.kidnap, scene.kidnap_time, mix(seed, 6)});
   const Laser2d laser({scene.field_of_view, scene.columns, scene.range, scene.noise}, mix(seed, 7));

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "simulate/building.hpp"
 #include "simulate/indoor_drive.hpp"
 #include "simulate/indoor_scene.hpp"
@@ -18,8 +18,8 @@ struct IndoorStage {
   IndoorScene scene;  ///< settled, with its drift
   Building building;
   IndoorDrive drive;
-  std::vector<Planar> odometry;  ///< one a pose of the drive
-  std::vector<char> lost;        ///< the same
+  std::vector<PlanarPose> odometry;  ///< one a pose of the drive
+  std::vector<char> lost;            ///< the same
   Laser2d laser;
 
   std::vector<double> scan(std::size_t k) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/unit.hpp"
 #include "simulate/drift.hpp"
@@ -65,8 +66,8 @@ class Recorder {
     for (;; ++tick_) {
       const double stamp = static_cast<double>(tick_) / rate_;
       if (stamp >= began_ + seconds) break;
-      Planar pose = pose_at(stamp - began_);
-      pose.heading = wrapped(pose.heading);
+      PlanarPose pose = pose_at(stamp - began_);
+      pose.yaw = planar::wrapped(pose.yaw);
       drive_.stamps.push_back(stamp);
       drive_.poses.push_back(pose);
       drive_.turning.push_back(turning);
@@ -90,9 +91,9 @@ IndoorDrive drive_indoors(const std::vector<Vector2d>& way, const IndoorDriveOpt
   for (std::size_t k = 0; k + 1 < way.size(); ++k) {
     const Vector2d leg = way[k + 1] - way[k], along = leg.normalized(), left(-along.y(), along.x());
     const double begin = heading, towards = std::atan2(along.y(), along.x());
-    const double turn = wrapped(towards - begin);
+    const double turn = planar::wrapped(towards - begin);
     recorder.stretch(std::abs(turn) / options.turn_rate, true, [&](double t) {
-      return Planar{way[k].x(), way[k].y(), begin + std::copysign(options.turn_rate * t, turn)};
+      return PlanarPose{way[k].x(), way[k].y(), begin + std::copysign(options.turn_rate * t, turn)};
     });
     const double bend = Weave(leg.norm(), 1).bend();
     const double amplitude =
@@ -101,33 +102,33 @@ IndoorDrive drive_indoors(const std::vector<Vector2d>& way, const IndoorDriveOpt
     recorder.stretch(weave.total() / options.speed, false, [&](double t) {
       const double u = weave.u_at(options.speed * t);
       const Vector2d at = way[k] + u * along + weave.offset(u) * left;
-      return Planar{at.x(), at.y(), towards + std::atan(weave.slope(u))};
+      return PlanarPose{at.x(), at.y(), towards + std::atan(weave.slope(u))};
     });
     heading = towards;
   }
   return recorder.take();
 }
 
-double way_length(const std::vector<Planar>& poses) {
+double way_length(const std::vector<PlanarPose>& poses) {
   double sum = 0;
   for (std::size_t k = 1; k < poses.size(); ++k)
     sum += std::hypot(poses[k].x - poses[k - 1].x, poses[k].y - poses[k - 1].y);
   return sum;
 }
 
-std::vector<Planar> wheel_odometry(const std::vector<Planar>& truth, double drift,
-                                   std::uint64_t seed) {
+std::vector<PlanarPose> wheel_odometry(const std::vector<PlanarPose>& truth, double drift,
+                                       std::uint64_t seed) {
   if (drift <= 0) return truth;
   Random fixed(mix(seed, 21));
   const double way_scale = 0.01 * fixed.gauss(), turn_scale = 0.02 * fixed.gauss();
   const double bias = 0.002 * fixed.gauss();  // [rad/m]
   const auto with_errors = [&](double factor) {
     Random random(mix(seed, 22));
-    std::vector<Planar> made{truth.front()};
+    std::vector<PlanarPose> made{truth.front()};
     for (std::size_t k = 1; k < truth.size(); ++k) {
-      const Planar &from = truth[k - 1], &to = truth[k];
+      const PlanarPose &from = truth[k - 1], &to = truth[k];
       const double dx = to.x - from.x, dy = to.y - from.y,
-                   turn = wrapped(to.heading - from.heading);
+                   turn = planar::wrapped(to.yaw - from.yaw);
       const double way = std::hypot(dx, dy);
       const double stretched =
           1 + factor * (way_scale + 0.005 * random.gauss() / std::sqrt(std::max(way, 1e-3)));
@@ -135,16 +136,16 @@ std::vector<Planar> wheel_odometry(const std::vector<Planar>& truth, double drif
                                              0.005 * std::sqrt(way) * random.gauss() +
                                              0.01 * std::sqrt(std::abs(turn)) * random.gauss());
       // The step as the robot sees it, turned into the heading that the wheels believe.
-      const double believed = made.back().heading - from.heading + 0.5 * (turned - turn);
+      const double believed = made.back().yaw - from.yaw + 0.5 * (turned - turn);
       const double c = std::cos(believed), s = std::sin(believed);
       made.push_back({made.back().x + stretched * (c * dx - s * dy),
                       made.back().y + stretched * (s * dx + c * dy),
-                      wrapped(made.back().heading + turned)});
+                      planar::wrapped(made.back().yaw + turned)});
     }
     return made;
   };
   return with_errors(factor_that_reaches(drift, [&](double factor) {
-    const std::vector<Planar> made = with_errors(factor);
+    const std::vector<PlanarPose> made = with_errors(factor);
     double greatest = 0;
     for (std::size_t k = 0; k < truth.size(); ++k)
       greatest = std::max(greatest, std::hypot(made[k].x - truth[k].x, made[k].y - truth[k].y));
@@ -162,7 +163,7 @@ std::vector<char> lost_scans(const IndoorDrive& drive, const LostScans& options)
   const double part = (drive.stamps.back() - 2 * margin) / static_cast<double>(options.stretches);
   if (part < options.stretch + margin)
     throw Error("scene: the drive takes " + written(drive.stamps.back(), Quantity::time) +
-                ", too short for " + std::to_string(options.stretches) + " stretches of " +
+                ", too short for " + counted(options.stretches, "stretches") + " of " +
                 written(options.stretch, Quantity::time) +
                 " without scans; ask for fewer or shorter ones");
   Random random(mix(options.seed, 24));

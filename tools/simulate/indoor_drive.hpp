@@ -5,14 +5,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulate/planar.hpp"
+#include "shared/planar/planar_pose.hpp"
 
 namespace plumb::simulate {
+
+using planar::PlanarPose;
 
 /// One entry a scan.
 struct IndoorDrive {
   std::vector<double> stamps;  ///< [s], from 0
-  std::vector<Planar> poses;
+  std::vector<PlanarPose> poses;
   std::vector<char> turning;  ///< on the spot
 
   std::size_t size() const { return stamps.size(); }
@@ -31,13 +33,13 @@ IndoorDrive drive_indoors(const std::vector<Eigen::Vector2d>& way,
                           const IndoorDriveOptions& options);
 
 /// Length of the path through the poses [m].
-double way_length(const std::vector<Planar>& poses);
+double way_length(const std::vector<PlanarPose>& poses);
 
 /// Poses by the wheels: wrong scales of way and turn, a wheel that is smaller than the other, and
 /// slip at random, all scaled by one factor so that the greatest position error is `drift` [m]. The
 /// first pose is the true one. Throws Error where the drift cannot be reached.
-std::vector<Planar> wheel_odometry(const std::vector<Planar>& truth, double drift,
-                                   std::uint64_t seed);
+std::vector<PlanarPose> wheel_odometry(const std::vector<PlanarPose>& truth, double drift,
+                                       std::uint64_t seed);
 
 struct LostScans {
   double in_turns = 0;  ///< share of the scans on the spot

@@ -18,9 +18,9 @@ TEST(IndoorDrive, IsNeitherFasterNorTurnsFasterThanAsked) {
       const IndoorDrive drive = drive_indoors(square, {speed, 0.1, 10, seed});
       std::size_t at_speed = 0, straight = 0;
       for (std::size_t k = 1; k < drive.size(); ++k) {
-        const Planar &a = drive.poses[k - 1], &b = drive.poses[k];
+        const PlanarPose &a = drive.poses[k - 1], &b = drive.poses[k];
         const double v = 10 * std::hypot(b.x - a.x, b.y - a.y);
-        const double w = 10 * std::abs(wrapped(b.heading - a.heading));
+        const double w = 10 * std::abs(planar::wrapped(b.yaw - a.yaw));
         EXPECT_LT(v, speed * 1.0001);
         EXPECT_LT(w, 0.1 * 1.0001);
         if (drive.turning[k] && drive.turning[k - 1]) {
@@ -38,11 +38,11 @@ TEST(IndoorDrive, IsNeitherFasterNorTurnsFasterThanAsked) {
 TEST(IndoorDrive, LooksWhereItDrives) {
   const IndoorDrive drive = drive_indoors(square, {0.2, 0.1, 5, 3});
   for (std::size_t k = 1; k < drive.size(); ++k) {
-    const Planar &a = drive.poses[k - 1], &b = drive.poses[k];
+    const PlanarPose &a = drive.poses[k - 1], &b = drive.poses[k];
     if (drive.turning[k] || drive.turning[k - 1]) continue;
-    EXPECT_NEAR(wrapped(std::atan2(b.y - a.y, b.x - a.x) -
-                        0.5 * (a.heading + b.heading +
-                               (std::abs(a.heading - b.heading) > 3 ? 6.283185307179586 : 0))),
+    EXPECT_NEAR(planar::wrapped(
+                    std::atan2(b.y - a.y, b.x - a.x) -
+                    0.5 * (a.yaw + b.yaw + (std::abs(a.yaw - b.yaw) > 3 ? 6.283185307179586 : 0))),
                 0, 2e-3);
   }
 }
@@ -51,7 +51,7 @@ TEST(IndoorDrive, BeginsAtTheOriginAndHoldsItsRate) {
   const IndoorDrive drive = drive_indoors(square, {0.2, 0.1, 5, 3});
   EXPECT_EQ(drive.poses.front().x, 0);
   EXPECT_EQ(drive.poses.front().y, 0);
-  EXPECT_NEAR(drive.poses.front().heading, 0, 1e-12);
+  EXPECT_NEAR(drive.poses.front().yaw, 0, 1e-12);
   for (std::size_t k = 0; k < drive.size(); ++k)
     EXPECT_DOUBLE_EQ(drive.stamps[k], 0.2 * static_cast<double>(k));
   // 43 m and four quarter turns
@@ -60,15 +60,15 @@ TEST(IndoorDrive, BeginsAtTheOriginAndHoldsItsRate) {
 }
 
 TEST(WheelOdometry, ErrsByTheDriftThatIsAsked) {
-  const std::vector<Planar> truth = drive_indoors(square, {0.2, 0.1, 5, 3}).poses;
+  const std::vector<PlanarPose> truth = drive_indoors(square, {0.2, 0.1, 5, 3}).poses;
   for (const double drift : {0.3, 4.0}) {
-    const std::vector<Planar> made = wheel_odometry(truth, drift, 9);
+    const std::vector<PlanarPose> made = wheel_odometry(truth, drift, 9);
     double greatest = 0;
     for (std::size_t k = 0; k < truth.size(); ++k)
       greatest = std::max(greatest, std::hypot(made[k].x - truth[k].x, made[k].y - truth[k].y));
     EXPECT_NEAR(greatest, drift, 1e-6);
     EXPECT_EQ(made[0].x, truth[0].x);
-    EXPECT_EQ(made[0].heading, truth[0].heading);
+    EXPECT_EQ(made[0].yaw, truth[0].yaw);
     const double way = way_length(made) / way_length(truth);
     EXPECT_NEAR(way, 1, 0.15);
   }

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/testing.hpp"
 
 namespace plumb::simulate {
@@ -95,8 +95,9 @@ TEST(Indoor, EveryScanOfTheLogHasItsTruthAndItsOdometryUnderItsStamp) {
     EXPECT_NEAR(std::stod(words[pose]), odometry.T_world_frame[k].translation.x(), 1e-6);
     EXPECT_NEAR(std::stod(words[pose + 1]), odometry.T_world_frame[k].translation.y(), 1e-6);
     const double heading = std::stod(words[pose + 2]);
-    EXPECT_NEAR(std::abs(wrapped(heading - log_rotation(odometry.T_world_frame[k].rotation).z())),
-                0, 1e-6);
+    EXPECT_NEAR(
+        std::abs(planar::wrapped(heading - log_rotation(odometry.T_world_frame[k].rotation).z())),
+        0, 1e-6);
   }
   EXPECT_TRUE(truth.T_world_frame[0].translation.isApprox(odometry.T_world_frame[0].translation));
 }

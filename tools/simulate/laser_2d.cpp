@@ -42,12 +42,12 @@ Laser2d::Laser2d(const Laser2dOptions& options, std::uint64_t seed)
           static_cast<double>(full_circle ? options.columns : options.columns - 1);
 }
 
-std::vector<double> Laser2d::exact(const std::vector<Wall>& walls, const Planar& pose) const {
+std::vector<double> Laser2d::exact(const std::vector<Wall>& walls, const PlanarPose& pose) const {
   const auto beams = static_cast<std::size_t>(options_.columns);
   const Vector2d origin(pose.x, pose.y);
   std::vector<Vector2d> directions(beams);
   for (std::size_t k = 0; k < beams; ++k) {
-    const double angle = pose.heading + first_ + step_ * static_cast<double>(k);
+    const double angle = pose.yaw + first_ + step_ * static_cast<double>(k);
     directions[k] = {std::cos(angle), std::sin(angle)};
   }
   std::vector<double> ranges(beams, options_.range);
@@ -56,8 +56,8 @@ std::vector<double> Laser2d::exact(const std::vector<Wall>& walls, const Planar&
     // The beams between the wall's ends, counted from beam 0, and one more on either side.
     const double a = std::atan2(wall.a.y() - pose.y, wall.a.x() - pose.x);
     const double b = std::atan2(wall.b.y() - pose.y, wall.b.x() - pose.x);
-    const double width = wrapped(b - a);
-    double from = (width > 0 ? a : b) - pose.heading - first_;
+    const double width = planar::wrapped(b - a);
+    double from = (width > 0 ? a : b) - pose.yaw - first_;
     from -= turn * std::floor(from / turn);
     for (const double start : {from - turn, from}) {
       const double low = std::ceil(start / step_) - 1;
@@ -71,7 +71,7 @@ std::vector<double> Laser2d::exact(const std::vector<Wall>& walls, const Planar&
   return ranges;
 }
 
-std::vector<double> Laser2d::scan(const std::vector<Wall>& walls, const Planar& pose,
+std::vector<double> Laser2d::scan(const std::vector<Wall>& walls, const PlanarPose& pose,
                                   std::uint64_t index) const {
   std::vector<double> ranges = exact(walls, pose);
   for (std::size_t k = 0; k < ranges.size(); ++k)

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "shared/planar/planar_pose.hpp"
 #include "simulate/floor_plan.hpp"
-#include "simulate/planar.hpp"
 
 namespace plumb::simulate {
+
+using planar::PlanarPose;
 
 struct Laser2dOptions {
   double field_of_view = 4.71238898038469;  ///< [rad], the first beam to the last
@@ -24,10 +26,10 @@ class Laser2d {
   Laser2d(const Laser2dOptions& options, std::uint64_t seed);
 
   /// One range [m] a beam; the greatest range where nothing is hit nearer. `index` picks the noise.
-  std::vector<double> scan(const std::vector<Wall>& walls, const Planar& pose,
+  std::vector<double> scan(const std::vector<Wall>& walls, const PlanarPose& pose,
                            std::uint64_t index) const;
   /// The same without noise.
-  std::vector<double> exact(const std::vector<Wall>& walls, const Planar& pose) const;
+  std::vector<double> exact(const std::vector<Wall>& walls, const PlanarPose& pose) const;
 
   double first_angle() const { return first_; }  ///< of beam 0 from straight ahead [rad]
   double step() const { return step_; }          ///< from beam to beam [rad]

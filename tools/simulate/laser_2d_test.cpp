@@ -22,11 +22,11 @@ std::vector<Wall> box_room() {
 
 TEST(Laser2d, ReadsTheKnownDistancesInABoxRoom) {
   const Laser2d laser({1.5 * pi, 541, 10, 0}, 1);
-  const Planar pose{1.3, -0.7, 0.4};
+  const PlanarPose pose{1.3, -0.7, 0.4};
   const std::vector<double> ranges = laser.exact(box_room(), pose);
   ASSERT_EQ(ranges.size(), 541u);
   for (std::size_t k = 0; k < ranges.size(); ++k) {
-    const double angle = pose.heading - 0.75 * pi + static_cast<double>(k) * 1.5 * pi / 540;
+    const double angle = pose.yaw - 0.75 * pi + static_cast<double>(k) * 1.5 * pi / 540;
     const double to_x = (std::cos(angle) > 0 ? 4 - pose.x : -4 - pose.x) / std::cos(angle);
     const double to_y = (std::sin(angle) > 0 ? 3 - pose.y : -3 - pose.y) / std::sin(angle);
     EXPECT_NEAR(ranges[k], std::min(to_x, to_y), 1e-9) << "beam " << k;
@@ -49,13 +49,12 @@ TEST(Laser2d, AgreesWithMeetingEveryBeamWithEveryWall) {
       const Eigen::Vector2d a(random.uniform(-9, 9), random.uniform(-9, 9));
       walls.push_back({a, a + Eigen::Vector2d(random.uniform(-6, 6), random.uniform(-6, 6))});
     }
-    const Planar pose{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-4, 4)};
+    const PlanarPose pose{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-4, 4)};
     const double view = round % 3 == 0 ? 2 * pi : random.uniform(0.3, 2 * pi);
     const Laser2d laser({view, 97, 8, 0}, 1);
     const std::vector<double> ranges = laser.exact(walls, pose);
     for (std::size_t k = 0; k < ranges.size(); ++k) {
-      const double angle =
-          pose.heading + laser.first_angle() + laser.step() * static_cast<double>(k);
+      const double angle = pose.yaw + laser.first_angle() + laser.step() * static_cast<double>(k);
       double nearest = 8;
       for (const Wall& wall : walls)
         nearest = std::min(nearest,

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "plumb/geometry/box.hpp"
+#include "plumb/slam/geometry/box.hpp"
 
 namespace plumb::simulate {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
 namespace plumb::simulate {
 

@@ -6,9 +6,9 @@
 #include <mutex>
 
 #include "plumb/data/error.hpp"
-#include "plumb/data/io/cloud_file.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/drift.hpp"
 #include "simulate/output_folder.hpp"
 #include "simulate/random.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "simulate/scanner.hpp"
 #include "simulate/scene.hpp"
 #include "simulate/world.hpp"

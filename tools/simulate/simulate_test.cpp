@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "plumb/data/io/cloud_file.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "simulate/drift.hpp"
 #include "simulate/testing.hpp"
 

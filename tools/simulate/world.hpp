@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "simulate/bvh.hpp"
 #include "simulate/ground.hpp"
 #include "simulate/primitive.hpp"

@@ -14,17 +14,12 @@
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/hash.hpp"
-#include "plumb/geometry/pose.hpp"
 
 namespace plumb {
 
-/// Types whose bytes are their value: numbers, enums and fixed Eigen vectors and matrices without
-/// padding.
+/// Types whose bytes are their value: numbers and enums; a header may add such as have no padding.
 template <class T>
 inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-template <class S, int R, int C, int O, int MR, int MC>
-inline constexpr bool is_plain<Eigen::Matrix<S, R, C, O, MR, MC>> =
-    R != Eigen::Dynamic&& C != Eigen::Dynamic;
 
 /// Where arrays of plain values may begin in bytes.
 inline constexpr std::size_t array_alignment = 16;
@@ -59,11 +54,6 @@ class OutArchive : public Sink {
   void put_value(const std::string& s) {
     put_value(static_cast<std::uint64_t>(s.size()));
     this->put(s.data(), s.size());
-  }
-  void put_value(const Pose& p) {
-    const double v[7] = {p.rotation.x(),    p.rotation.y(),    p.rotation.z(),   p.rotation.w(),
-                         p.translation.x(), p.translation.y(), p.translation.z()};
-    this->put(v, sizeof v);
   }
   template <class T>
   void put_value(const std::vector<T>& values) {
@@ -162,12 +152,6 @@ class InArchive {
     const std::size_t n = take_size(1);
     s.assign(take(n), n);
   }
-  void take_value(Pose& p) {
-    double v[7];
-    std::memcpy(v, take(sizeof v), sizeof v);
-    p.rotation = Eigen::Quaterniond(v[3], v[0], v[1], v[2]);
-    p.translation = {v[4], v[5], v[6]};
-  }
   template <class T>
   void take_value(std::vector<T>& values) {
     if constexpr (is_plain<T>) {
@@ -196,6 +180,10 @@ class InArchive {
   std::string_view bytes_;
   std::size_t at_ = 0;
 };
+
+template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, Hash128>
+void fields(Archive& a, T& h) { a(h.high, h.low); }
 
 /// Hash of a value's content.
 template <class T>

@@ -1,95 +1,133 @@
 #include "plumb/data/type.hpp"
 
-#include <array>
+#include <map>
+#include <mutex>
 
-#include "plumb/data/fault.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/data/error.hpp"
 
 namespace plumb {
 namespace {
 
-struct CountSink {
-  std::size_t size = 0;
-  void put(const void*, std::size_t n) { size += n; }
+template <class T>
+using ByName = std::map<std::string, T, std::less<>>;
+
+/// What is registered in this process. Addresses stay.
+struct Registered {
+  std::mutex mutex;
+  ByName<ItemKind> kinds;
+  ByName<Type> types;
 };
-
-/// Search trees that may be built on a value [bytes]: 12 for the copy of a point, 12 for its place
-/// in the tree.
-template <class T>
-std::size_t trees_of(const T&) {
-  return 0;
+Registered& registered() {
+  static Registered all;
+  return all;
 }
-std::size_t trees_of(const Segment& segment) { return segment.cloud.size() * 24; }
 
 template <class T>
-Type make(const char* name, int version, Grain grain) {
-  return {name,
-          version,
-          grain,
-          [](const void* value) { return content_hash(*static_cast<const T*>(value)); },
-          [](const void* value, OutArchive<TextSink>& to) { to(*static_cast<const T*>(value)); },
-          [](InArchive& from) -> std::shared_ptr<const void> {
-            auto value = std::make_shared<T>();
-            from(*value);
-            return value;
-          },
-          [](const void* value) {
-            OutArchive<CountSink> archive;
-            archive(*static_cast<const T*>(value));
-            return archive.size + trees_of(*static_cast<const T*>(value));
-          },
-          [](const void* value) { return fault_in(*static_cast<const T*>(value)); },
-          []() -> std::shared_ptr<const void> { return std::make_shared<const T>(); }};
+const T* named(const ByName<T>& all, std::string_view name) {
+  const auto at = all.find(name);
+  return at == all.end() ? nullptr : &at->second;
+}
+
+/// Of what is registered, else of what is about to be.
+template <class T>
+const T* named(const ByName<T>& all, const ByName<T>& fresh, std::string_view name) {
+  const T* there = named(all, name);
+  return there ? there : named(fresh, name);
+}
+
+std::string described(const ItemKind* kind) {
+  return kind ? "one per " + kind->name : std::string("one for the whole pipeline");
+}
+
+/// What two definitions of a type differ in; "" where one serves both.
+std::string difference(const Type& there, const Type& other) {
+  const auto differs = [](const std::string& what, const auto& a, const auto& b) {
+    return "its " + what + " is " + a + " there and " + b + " here";
+  };
+  if (there.version != other.version)
+    return differs("version", std::to_string(there.version), std::to_string(other.version));
+  if (there.kind != other.kind)
+    return differs("grain", described(there.kind), described(other.kind));
+  if (there.large != other.large || there.has_numbers != other.has_numbers ||
+      there.has_empty != other.has_empty)
+    return "its traits are others there than here";
+  if (!there.layout.empty() && !other.layout.empty() && there.layout != other.layout)
+    return differs("layout in memory", there.layout, other.layout);
+  return "";
+}
+
+void require_same(const ItemKind& there, const ItemKind& other) {
+  if (there != other)
+    throw Error("item kind '" + other.name +
+                "' is defined twice, and not alike; give one of the two another name");
+}
+
+void require_same(const Type& there, const Type& other) {
+  if (const std::string why = difference(there, other); !why.empty())
+    throw Error("type '" + other.name + "' is defined twice, and not alike: " + why +
+                "; build both modules with the same header, or give one of the types another name");
+}
+
+/// Registers what fits what is there.
+const Type& take(Registered& all, const Type& type) {
+  Type& there = all.types.try_emplace(type.name, type).first->second;
+  if (!there.code) there.code = type.code;
+  if (there.layout.empty()) there.layout = type.layout;
+  return there;
 }
 
 }  // namespace
 
-const char* name_of(Grain grain) {
-  switch (grain) {
-    case Grain::whole:
-      return "pipeline";
-    case Grain::frame:
-      return "frame";
-    case Grain::segment:
-      return "segment";
-    case Grain::edge:
-      return "edge";
-  }
-  return "?";
+const ItemKind& define_kind(const ItemKind& kind) {
+  Registered& all = registered();
+  const std::lock_guard lock(all.mutex);
+  const ItemKind& there = all.kinds.try_emplace(kind.name, kind).first->second;
+  require_same(there, kind);
+  return there;
 }
 
-#define PLUMB_TYPE(T, VERSION, GRAIN)                            \
-  template <>                                                    \
-  const Type& type_of<T>() {                                     \
-    static const Type type = make<T>(#T, VERSION, Grain::GRAIN); \
-    return type;                                                 \
-  }
-PLUMB_TYPE(Trajectory, 1, whole)
-PLUMB_TYPE(Frame, 1, frame)
-PLUMB_TYPE(FrameRange, 1, segment)
-PLUMB_TYPE(Segment, 1, segment)
-PLUMB_TYPE(Descriptor, 1, segment)
-PLUMB_TYPE(Features, 1, segment)
-PLUMB_TYPE(Edges, 1, whole)
-PLUMB_TYPE(Matches, 1, edge)
-PLUMB_TYPE(Registration, 1, edge)
-PLUMB_TYPE(Constraints, 1, whole)
-PLUMB_TYPE(Poses, 1, whole)
-PLUMB_TYPE(GridMap, 1, whole)
-PLUMB_TYPE(Metrics, 1, whole)
-PLUMB_TYPE(Document, 1, whole)
-#undef PLUMB_TYPE
+const ItemKind* find_kind(std::string_view name) {
+  Registered& all = registered();
+  const std::lock_guard lock(all.mutex);
+  return named(all.kinds, name);
+}
+
+const Type& define_type(const Type& type) {
+  Registered& all = registered();
+  const std::lock_guard lock(all.mutex);
+  if (const Type* there = named(all.types, type.name)) require_same(*there, type);
+  return take(all, type);
+}
 
 const Type* find_type(std::string_view name) {
-  static const std::array<const Type*, 14> all = {
-      &type_of<Trajectory>(),  &type_of<Frame>(),      &type_of<FrameRange>(),
-      &type_of<Segment>(),     &type_of<Descriptor>(), &type_of<Features>(),
-      &type_of<Edges>(),       &type_of<Matches>(),    &type_of<Registration>(),
-      &type_of<Constraints>(), &type_of<Poses>(),      &type_of<GridMap>(),
-      &type_of<Metrics>(),     &type_of<Document>()};
-  for (const Type* type : all)
-    if (name == type->name) return type;
-  return nullptr;
+  Registered& all = registered();
+  const std::lock_guard lock(all.mutex);
+  return named(all.types, name);
+}
+
+void define_together(const std::vector<ItemKind>& kinds, const std::vector<TypeDraft>& types) {
+  Registered& all = registered();
+  const std::lock_guard lock(all.mutex);
+  ByName<ItemKind> fresh_kinds;
+  for (const ItemKind& kind : kinds)
+    if (const ItemKind* there = named(all.kinds, fresh_kinds, kind.name))
+      require_same(*there, kind);
+    else
+      fresh_kinds.emplace(kind.name, kind);
+  ByName<Type> fresh;  // of fresh kinds, as yet
+  for (const TypeDraft& draft : types) {
+    Type type = draft.type;
+    type.kind = draft.kind ? named(all.kinds, fresh_kinds, *draft.kind) : nullptr;
+    if (draft.kind && !type.kind)
+      throw Error("item kind '" + *draft.kind + "' is named and not defined");
+    if (const Type* there = named(all.types, fresh, type.name)) require_same(*there, type);
+    fresh.emplace(type.name, type);
+  }
+  all.kinds.insert(fresh_kinds.begin(), fresh_kinds.end());
+  for (auto& [name, type] : fresh) {
+    if (type.kind) type.kind = named(all.kinds, type.kind->name);
+    take(all, type);
+  }
 }
 
 }  // namespace plumb

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <functional>
 
+#include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/toy_testing.hpp"
 #include "plumb/engine/cache/results.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/run/parallel.hpp"
@@ -37,7 +39,7 @@ TEST(Parallel, RethrowsWhatABodyThrew) {
 TEST(Results, ForgetsWhatWasNotUsedForLongest) {
   const auto value = [](std::size_t n) {
     StoredResult result;
-    result.outputs.push_back({any_value(Descriptor{std::vector<float>(n)})});
+    result.outputs.push_back({any_value(toy::Features{std::vector<float>(n)})});
     return result;
   };
   Results results(nullptr, false, 10'000);

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <map>
 
+#include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/data/values.hpp"
 #include "plumb/engine/record/output_folder.hpp"
 #include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "plumb/pipeline/testing/former_testing.hpp"
-#include "plumb/plugin/declaration.hpp"
+#include "plumb/plugin/toy_testing.hpp"
 
 namespace plumb {
 namespace {
@@ -188,11 +188,11 @@ TEST_F(FormerNamesTest, BesideThoseOfNowAreOneMistake) {
 /// A module from elsewhere, which calls its things as others did before.
 struct Elsewhere : WholeStep {
   struct In {
-    One<Trajectory> trajectory;
+    One<toy::Trajectory> trajectory;
   };
   struct Out {
-    std::vector<FrameRange> cuts;
-    Poses start;
+    std::vector<toy::FrameRange> cuts;
+    toy::Poses start;
   };
   struct Params {
     int length = 60;

@@ -48,7 +48,7 @@ TEST(Mistakes, InWiresThatFitInMoreThanOneWay) {
   EXPECT_THAT(told(more), HasSubstr("{poses: ranges.poses} or {pairs: ranges.poses}"));
 }
 
-TEST(Mistakes, InGrains) {
+TEST(Mistakes, InItemKinds) {
   // An EdgeStep sees one edge's matches; the solver sees all of them.
   EXPECT_THAT(
       told_with("matches: kept, poses: poses}, with: {loss",

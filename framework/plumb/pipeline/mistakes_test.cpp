@@ -10,6 +10,7 @@ using test::cascade;
 using test::told;
 using test::told_with;
 using test::with;
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(Mistakes, AreShownWithTheLineACaretAndTheCure) {
@@ -87,6 +88,15 @@ TEST(Mistakes, InReferencesToParameters) {
   EXPECT_THAT(told_with("frames: 30", "frames: $voxel"),
               HasSubstr("'$voxel' does not serve: it is a length, expected an integer"));
   EXPECT_THAT(told_with("path: $input", "path: $input/sub"), HasSubstr("a reference stands alone"));
+  const char* const cure = "A '$' that is text is written '$$'";
+  EXPECT_THAT(told_with("path: $input", "path: $input/sub"), HasSubstr(cure));
+  EXPECT_THAT(told_with("path: $input", "path: $ipnut"), HasSubstr(cure));
+  EXPECT_EQ(told_with("{type: path,", "{type: path, default: $voxel,"), "");  // --set gives another
+  EXPECT_THAT(told(cascade, {"input=$voxel"}),
+              AllOf(HasSubstr("--set input=$voxel: parameter 'input': '$voxel' refers to another"),
+                    HasSubstr(cure)));
+  for (const char* text : {"input=a$b", "input=$", "input=a$$$b"})
+    EXPECT_THAT(told(cascade, {text}), AllOf(HasSubstr("has a '$' in it"), HasSubstr(cure)));
   EXPECT_THAT(told_with("default: 0.3 m", "default: 300 m"),
               HasSubstr("its value 300 m does not fit, expected length, 0.01 m to 100 m"));
   EXPECT_THAT(

@@ -74,6 +74,11 @@ TEST(Mistakes, OfTakingSomethingElseForAPipeline) {
   };
   EXPECT_THAT(told_of("pipelines"),
               HasSubstr("pipelines' is a folder, not a pipeline.\n  In it: "));
+  folder.write("street/scene.yaml", "path: city_loop\nframes: 200\n");
+  folder.write("street/odometry.tum", "");
+  EXPECT_THAT(told_of("street"),
+              HasSubstr("street' is a folder, not a pipeline.\n  Give the YAML file of a pipeline; "
+                        "its data goes behind --set, as in --set input="));
   EXPECT_THAT(told_of("pipelines/ctiy.yaml"),
               HasSubstr("Did you mean '" + (folder.path() / "pipelines/city.yaml").string()));
   EXPECT_THAT(told_of("pipelines/city"), HasSubstr("/pipelines/city.yaml'?"));

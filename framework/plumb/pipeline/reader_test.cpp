@@ -84,6 +84,38 @@ steps:
   EXPECT_EQ(plan.name, "a");
 }
 
+std::string path_of_sequence(const Plan& plan) {
+  return std::get<std::string>(parameter(plan, "sequence", "path").value);
+}
+
+TEST(Reader, TakesADollarThatIsWrittenTwiceOrInQuotesForItself) {
+  const Plan given = plan_of(cascade, {"input=/data/$$5/a$$$$b"});
+  EXPECT_EQ(path_of_sequence(given), "/data/$5/a$$b");
+  EXPECT_EQ(path_of_sequence(plan_of(given.resolved, {})), "/data/$5/a$$b");
+  for (const char* written : {"/data/$$5", "'/data/$5'", "\"/data/$5\""}) {
+    std::string text = cascade;
+    text.replace(text.find("$input"), 6, written);
+    const std::string declared = "  input: {type: path, about: the sequence}\n";
+    text.erase(text.find(declared), declared.size());
+    const Plan plan = plan_of(text, {});
+    EXPECT_EQ(path_of_sequence(plan), "/data/$5") << written;
+    EXPECT_EQ(path_of_sequence(plan_of(plan.resolved, {})), "/data/$5") << plan.resolved;
+  }
+}
+
+TEST(Reader, ResolvesPathsBelowAFolderWithADollarInItsName) {
+  const Folder folder;
+  const auto file = folder.write("a$b/a.yaml", R"(plumb: 1
+parameters: {input: {type: path, default: data}}
+steps:
+  sequence: {use: source.sequence, with: {path: $input}}
+  written: {use: write.trajectory, from: sequence.trajectory}
+)");
+  const Plan plan = read_pipeline(file, {}, registry());
+  EXPECT_EQ(path_of_sequence(plan), (folder.path() / "a$b/data").string());
+  EXPECT_EQ(path_of_sequence(plan_of(plan.resolved, {})), path_of_sequence(plan));
+}
+
 TEST(Reader, BindsTheOnePortThatFits) {
   const Plan plan = plan_of(cascade);
   EXPECT_EQ(input(plan, "written", "trajectory")[0].step, index_of(plan, "sequence"));

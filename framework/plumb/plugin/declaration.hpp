@@ -3,11 +3,14 @@
 /// manifest and the page.
 ///
 ///   static void describe(Declaration<VoxelGrid>& is) {
-///     is.name("filter.voxel_grid").version(1).summary("Keeps one point per cubic
-///     cell.").source("[Tang2024] 2.2"); is.input("segment", &In::segment, "the cloud to thin");
+///     is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2");
+///     is.summary("Keeps one point per cubic cell.");
+///     is.input("segment", &In::segment, "the cloud to thin");
 ///     is.output("segment", &Out::segment, "its cells' means");
-///     is.param("voxel_size", &Params::voxel_size).unit("m").range(0.01, 100).doc("edge length of a
-///     voxel");
+///     is.param("voxel_size", &Params::voxel_size)
+///         .unit("m")
+///         .range(0.01, 100)
+///         .doc("edge length of a voxel");
 ///   }
 
 #include <limits>
@@ -15,157 +18,30 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plumb/plugin/parameter_set.hpp"
+#include "plumb/plugin/port_traits.hpp"
 #include "plumb/plugin/step.hpp"
 
 namespace plumb {
 
-/// Fluent description of one parameter; returned by Declaration::param.
-class ParameterBuilder {
- public:
-  explicit ParameterBuilder(ParameterDescription& description) : of_(&description) {}
-  /// Unit of the C++ field: "m", "rad", "s", "m/s", "rad/s", "rad/m", "Hz", or "%" for a ratio (the
-  /// field holds 0.02 for 2 %).
-  ParameterBuilder& unit(const char* symbol) {
-    const Unit* unit = find_unit(symbol);
-    if (!unit) throw std::logic_error("parameter '" + of_->name + "': no such unit");
-    of_->quantity = unit->quantity;
-    return *this;
-  }
-  /// Inclusive bounds, SI.
-  ParameterBuilder& range(double low, double high = std::numeric_limits<double>::infinity()) {
-    of_->low = low;
-    of_->high = high;
-    return *this;
-  }
-  ParameterBuilder& doc(const char* text) {
-    of_->doc = text;
-    return *this;
-  }
-  ParameterBuilder& source(const char* text) {
-    of_->source = text;
-    return *this;
-  }
-  ParameterBuilder& required() {
-    of_->required = true;
-    return *this;
-  }
-  /// Does not change the result, only how it is reached: not part of an item's key.
-  ParameterBuilder& without_effect() {
-    of_->affects_result = false;
-    return *this;
-  }
-
- private:
-  ParameterDescription* of_;
-};
-
-template <class E>
-struct ChoiceOf {
-  const char* name;
-  E value;
-  const char* doc;
-};
-
-namespace detail {
-
-template <class T>
-struct is_optional : std::false_type {};
-template <class T>
-struct is_optional<std::optional<T>> : std::true_type {};
-
-/// Reads an input member from a PortInput; its specialisations are the list of what an In may hold.
-template <class Member>
-struct InputTraits;
-template <class T>
-struct InputTraits<One<T>> {
-  static constexpr Access access = Access::item;
-  static const Type& type() { return type_of<T>(); }
-  static void set(One<T>& to, const PortInput& from) { to = One<T>(from.one.template as<T>()); }
-};
-template <class T>
-struct InputTraits<Ends<T>> {
-  static constexpr Access access = Access::ends;
-  static const Type& type() { return type_of<T>(); }
-  static void set(Ends<T>& to, const PortInput& from) {
-    to = {One<T>(from.one.template as<T>()), One<T>(from.other.template as<T>())};
-  }
-};
-template <class T>
-struct InputTraits<Each<T>> {
-  static constexpr Access access = Access::each;
-  static const Type& type() { return type_of<T>(); }
-  static void set(Each<T>& to, const PortInput& from) { to = Each<T>(from.each); }
-};
-template <class T>
-struct InputTraits<std::vector<Labelled<T>>> {
-  static constexpr Access access = Access::several;
-  static const Type& type() { return type_of<T>(); }
-  static void set(Several<T>& to, const PortInput& from) {
-    for (const auto& [label, value] : from.several)
-      to.push_back({label, One<T>(value.template as<T>())});
-  }
-};
-template <>
-struct InputTraits<Relative> {
-  static constexpr Access access = Access::relative;
-  static const Type& type() { return type_of<Poses>(); }
-  static void set(Relative& to, const PortInput& from) { to = {from.T_i_j, from.wired}; }
-};
-template <>
-struct InputTraits<OverEdges> {
-  static constexpr Access access = Access::over_edges;
-  static const Type& type() { return type_of<Edges>(); }
-  static void set(OverEdges& to, const PortInput& from) { to = {from.wired}; }
-};
-template <>
-struct InputTraits<ThisEdge> {
-  static constexpr Access access = Access::this_edge;
-  static const Type& type() { return type_of<Edges>(); }
-  static void set(ThisEdge& to, const PortInput& from) { to = {from.edge, from.wired}; }
-};
-
-template <class T>
-struct OutputTraits {
-  static constexpr Emission emission = Emission::one;
-  static const Type& type() { return type_of<T>(); }
-  static void get(T& from, PortOutput& to) { to.one = any_value(std::move(from)); }
-};
-template <class T>
-struct OutputTraits<std::vector<T>> {
-  static constexpr Emission emission = Emission::many;
-  static const Type& type() { return type_of<T>(); }
-  static void get(std::vector<T>& from, PortOutput& to) {
-    for (auto& value : from) to.many.push_back(any_value(std::move(value)));
-  }
-};
-template <class T>
-struct OutputTraits<Lazy<T>> {
-  static constexpr Emission emission = Emission::lazy;
-  static const Type& type() { return type_of<T>(); }
-  static void get(Lazy<T>& from, PortOutput& to) {
-    to.lazy.keys = std::move(from.keys);
-    to.lazy.open = [open = std::move(from.open)](std::size_t k, Context& context) {
-      return any_value(open(k, context));
-    };
-  }
-};
-
-}  // namespace detail
-
+/// What a step says of itself: its name, its ports, and, by ParameterSet, its parameters.
 template <class S>
-class Declaration {
+class Declaration : public ParameterSet<typename S::Params> {
  public:
   using In = typename S::In;
   using Out = typename S::Out;
   using Params = typename S::Params;
 
-  explicit Declaration(StepDescription& description) : of_(description) {
-    of_.kind = S::kind;
-    of_.parameters.reserve(64);  // builders point into it
+  explicit Declaration(StepDescription& description)
+      : ParameterSet<Params>(description.parameters, Params()), of_(description) {
+    of_.items = S::items();
   }
 
   Declaration& name(const char* text) { return of_.name = text, *this; }
   Declaration& version(int number) { return of_.version = number, *this; }
+  /// The author's word that every build with this version gives the same results, so that those of
+  /// other builds are taken from the cache. Without it they are made again.
+  Declaration& across_builds() { return of_.across_builds = true, *this; }
   Declaration& summary(const char* text) { return of_.summary = text, *this; }
   Declaration& source(const char* text) { return of_.source = text, *this; }
 
@@ -185,81 +61,35 @@ class Declaration {
     return *this;
   }
   /// The many values of the output declared last belong to the items of an input declared before,
-  /// an Each of the same grain: one value each, in their order. Without this they are items of
+  /// an Each of the same kind: one value each, in their order. Without this they are items of
   /// their own.
   Declaration& over(const char* input) {
     if (of_.outputs.empty() || of_.outputs.back().emission == Emission::one)
       throw std::logic_error("over(): the last thing declared is no output of many values");
     const InputDescription* of = of_.input(input);
-    if (!of || of->access != Access::each || of->type->grain != of_.outputs.back().type->grain)
+    if (!of || of->access != Access::each || of->type->kind != of_.outputs.back().type->kind)
       throw std::logic_error("output '" + of_.outputs.back().name + "': no input '" + input +
-                             "' of items of its grain");
+                             "' of items of its kind");
     of_.outputs.back().over = input;
     return *this;
   }
 
-  /// An optional input of Metrics whose first number multiplies all of the step's lengths
-  /// (parameters in metres; those in 1/m are divided): how large the surroundings are beside those
-  /// that the numbers were chosen for. So one pipeline serves a car in a street and a scanner
-  /// carried through rooms.
-  Declaration& scale(One<Metrics> In::*member) {
-    scale_ = [member](const In& in) { return (in.*member).shared().get(); };
+  /// An optional input of a value with numbers (Metrics) whose first one multiplies all of the
+  /// step's lengths (parameters in metres; those in 1/m are divided): how large the surroundings
+  /// are beside those that the numbers were chosen for. So one pipeline serves a car in a street
+  /// and a scanner carried through rooms.
+  template <class M>
+  Declaration& scale(One<M> In::*member) {
+    scale_ = [member](const In& in) -> const std::vector<Number>* {
+      return in.*member ? &TypeTraits<M>::numbers(*(in.*member)) : nullptr;
+    };
     return add_input("scale", member,
                      "how large the surroundings are beside those that the parameters are for; "
                      "lengths are multiplied by it",
                      true);
   }
 
-  /// A parameter of type double, int, std::uint32_t, std::int64_t, bool, std::string,
-  /// std::filesystem::path, or std::optional of one of these (then 'none' may be written). The
-  /// default is what the member has in a fresh Params.
-  template <class M>
-  ParameterBuilder param(const char* parameter, M Params::*member) {
-    if constexpr (detail::is_optional<M>::value) {
-      auto& p = add_param<typename M::value_type>(parameter);
-      p.may_be_none = true;
-      const M& standard = standard_.*member;
-      if (standard) p.standard = to_value(*standard);
-      setters_.push_back({parameter, [member](Params& params, const ParameterValue& v) {
-                            if (std::holds_alternative<std::monostate>(v))
-                              params.*member = std::nullopt;
-                            else
-                              params.*member = from_value<typename M::value_type>(v);
-                          }});
-      if constexpr (std::is_same_v<typename M::value_type, double>)
-        scalers_.push_back({of_.parameters.size() - 1, [member](Params& params, double factor) {
-                              if (params.*member) *(params.*member) *= factor;
-                            }});
-      return ParameterBuilder(p);
-    } else {
-      auto& p = add_param<M>(parameter);
-      p.standard = to_value(standard_.*member);
-      setters_.push_back({parameter, [member](Params& params, const ParameterValue& v) {
-                            params.*member = from_value<M>(v);
-                          }});
-      if constexpr (std::is_same_v<M, double>)
-        scalers_.push_back({of_.parameters.size() - 1,
-                            [member](Params& params, double factor) { params.*member *= factor; }});
-      return ParameterBuilder(p);
-    }
-  }
-  /// A parameter that is one of an enum's values, each with its name in YAML and what it means.
-  template <class E>
-  ParameterBuilder choice(const char* parameter, E Params::*member,
-                          std::vector<ChoiceOf<E>> choices) {
-    auto& p = add_param<std::string>(parameter);
-    p.kind = ParameterKind::choice;
-    for (const auto& c : choices) {
-      p.choices.push_back({c.name, c.doc});
-      if (c.value == standard_.*member) p.standard = std::string(c.name);
-    }
-    setters_.push_back({parameter, [member, choices](Params& params, const ParameterValue& v) {
-                          for (const auto& c : choices)
-                            if (std::get<std::string>(v) == c.name) params.*member = c.value;
-                        }});
-    return ParameterBuilder(p);
-  }
-
+  const detail::PartCode& part_code(std::size_t input) const { return parts_[input]; }
   In make_in(std::span<const PortInput> inputs) const {
     In in;
     for (std::size_t k = 0; k < takers_.size(); ++k)
@@ -271,96 +101,32 @@ class Declaration {
   }
   /// The factor of lengths that came in, or 1. Throws Error where it is no factor.
   double scale_of(const In& in) const {
-    const Metrics* scale = scale_ ? scale_(in) : nullptr;
-    if (!scale) return 1;
-    const auto& numbers = scale->numbers;
+    const std::vector<Number>* given = scale_ ? scale_(in) : nullptr;
+    if (!given) return 1;
+    const std::vector<Number>& numbers = *given;
     if (numbers.empty() || !(numbers.front().value > 0 &&
                              numbers.front().value < std::numeric_limits<double>::infinity()))
       throw Error(
-          "'scale' must have a positive number: wire Metrics whose first number is the factor");
+          "'scale' must have a positive number: wire a value whose first number is the factor");
     return numbers.front().value;
-  }
-  Params scaled(Params params, double factor) const {
-    for (const auto& [place, scale] : scalers_)
-      if (of_.parameters[place].quantity == Quantity::length)
-        scale(params, factor);
-      else if (of_.parameters[place].quantity == Quantity::curvature)
-        scale(params, 1 / factor);
-    return params;
-  }
-  Params make_params(const ParameterValues& values) const {
-    Params params;
-    for (const auto& [parameter, set] : setters_)
-      if (const auto at = values.find(parameter); at != values.end()) set(params, at->second);
-    if constexpr (requires { params.check(); })
-      if (const std::string fault = params.check(); !fault.empty()) throw Error(fault);
-    return params;
   }
 
  private:
   template <class M>
   Declaration& add_input(const char* port, M In::*member, const char* doc, bool optional) {
-    using Traits = detail::InputTraits<M>;
-    of_.inputs.push_back({port, &Traits::type(), Traits::access, optional, doc});
+    using Traits = InputTraits<M>;
+    of_.inputs.push_back({port, &Traits::type(), Traits::access, optional, doc, ""});
+    if constexpr (Traits::access == Access::part) of_.inputs.back().sees = Traits::sees;
+    parts_.push_back(detail::part_code<Traits>());
     takers_.push_back([member](In& in, const PortInput& from) { Traits::set(in.*member, from); });
     return *this;
   }
-  template <class T>
-  ParameterDescription& add_param(const char* parameter) {
-    if (of_.parameters.size() == of_.parameters.capacity())
-      throw std::logic_error("too many parameters");
-    auto& p = of_.parameters.emplace_back();
-    p.name = parameter;
-    p.low = -std::numeric_limits<double>::infinity();
-    p.high = std::numeric_limits<double>::infinity();
-    if constexpr (std::is_same_v<T, bool>)
-      p.kind = ParameterKind::boolean;
-    else if constexpr (std::is_integral_v<T>)
-      p.kind = ParameterKind::integer;
-    else if constexpr (std::is_floating_point_v<T>)
-      p.kind = ParameterKind::number;
-    else if constexpr (std::is_same_v<T, std::filesystem::path>)
-      p.kind = ParameterKind::path;
-    else
-      p.kind = ParameterKind::text;
-    if constexpr (std::is_unsigned_v<T> && !std::is_same_v<T, bool>) p.low = 0;
-    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool> && sizeof(T) <= 4)
-      p.high = static_cast<double>(std::numeric_limits<T>::max());
-    return p;
-  }
-  template <class T>
-  static ParameterValue to_value(const T& v) {
-    if constexpr (std::is_same_v<T, bool>)
-      return v;
-    else if constexpr (std::is_integral_v<T>)
-      return static_cast<std::int64_t>(v);
-    else if constexpr (std::is_floating_point_v<T>)
-      return static_cast<double>(v);
-    else if constexpr (std::is_same_v<T, std::filesystem::path>)
-      return v.string();
-    else
-      return std::string(v);
-  }
-  template <class T>
-  static T from_value(const ParameterValue& v) {
-    if constexpr (std::is_same_v<T, bool>)
-      return std::get<bool>(v);
-    else if constexpr (std::is_integral_v<T>)
-      return static_cast<T>(std::get<std::int64_t>(v));
-    else if constexpr (std::is_floating_point_v<T>)
-      return static_cast<T>(std::get<double>(v));
-    else
-      return T(std::get<std::string>(v));
-  }
 
   StepDescription& of_;
-  Params standard_;
   std::vector<std::function<void(In&, const PortInput&)>> takers_;
+  std::vector<detail::PartCode> parts_;  ///< by input
   std::vector<std::function<void(Out&, PortOutput&)>> getters_;
-  std::vector<std::pair<std::string, std::function<void(Params&, const ParameterValue&)>>> setters_;
-  std::vector<std::pair<std::size_t, std::function<void(Params&, double)>>>
-      scalers_;                                     ///< of the parameter with that place
-  std::function<const Metrics*(const In&)> scale_;  ///< null where it is not wired
+  std::function<const std::vector<Number>*(const In&)> scale_;  ///< null where it is not wired
 };
 
 /// The engine's face of a step S.
@@ -374,48 +140,18 @@ class StepOf final : public Step {
   }
   void run(const void* params, std::span<const PortInput> inputs, std::span<PortOutput> outputs,
            Context& context) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      throw std::logic_error("a fold is not run but folded");
-    } else {
-      const auto in = declaration_.make_in(inputs);
-      const double factor = declaration_.scale_of(in);
-      auto out = factor == 1 ? S{}.run(in, params_of(params), context)
-                             : S{}.run(in, declaration_.scaled(params_of(params), factor), context);
-      declaration_.give_out(out, outputs);
-    }
+    const auto in = declaration_.make_in(inputs);
+    const double factor = declaration_.scale_of(in);
+    auto out = factor == 1 ? S{}.run(in, params_of(params), context)
+                           : S{}.run(in, declaration_.scaled(params_of(params), factor), context);
+    declaration_.give_out(out, outputs);
   }
-  std::shared_ptr<void> begin(std::string_view saved) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      auto state = std::make_shared<typename S::State>();
-      if (!saved.empty()) *state = from_bytes<typename S::State>(saved);
-      return state;
-    } else {
-      throw std::logic_error("not a fold");
-    }
+  SeenPart part(std::size_t input, const void* value, const ItemPlace& item) const override {
+    return declaration_.part_code(input).part(value, item);
   }
-  std::string save(const void* state) const override {
-    if constexpr (S::kind == StepKind::fold)
-      return to_bytes(*static_cast<const typename S::State*>(state));
-    else
-      throw std::logic_error(state ? "not a fold" : "not a fold, no state");
-  }
-  void fold(void* state, const void* params, std::span<const PortInput> inputs,
-            Context& context) const override {
-    if constexpr (S::kind == StepKind::fold)
-      S{}.fold(*static_cast<typename S::State*>(state), declaration_.make_in(inputs),
-               params_of(params), context);
-    else
-      (void)state, (void)params, (void)inputs, (void)context;
-  }
-  void finish(void* state, const void* params, std::span<PortOutput> outputs,
-              Context& context) const override {
-    if constexpr (S::kind == StepKind::fold) {
-      auto out = S{}.finish(std::move(*static_cast<typename S::State*>(state)), params_of(params),
-                            context);
-      declaration_.give_out(out, outputs);
-    } else {
-      (void)state, (void)params, (void)outputs, (void)context;
-    }
+  std::optional<std::size_t> ends_count(std::size_t input, const void* value) const override {
+    const auto code = declaration_.part_code(input).ends_count;
+    return code ? code(value) : std::nullopt;
   }
 
  private:

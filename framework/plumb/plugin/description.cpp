@@ -1,5 +1,6 @@
 #include "plumb/plugin/description.hpp"
 
+#include <cctype>
 #include <cmath>
 
 namespace plumb {
@@ -19,22 +20,6 @@ std::string bound_text(const ParameterDescription& parameter, double bound) {
 
 }  // namespace
 
-const char* name_of(StepKind kind) {
-  switch (kind) {
-    case StepKind::frame:
-      return "FrameStep";
-    case StepKind::segment:
-      return "SegmentStep";
-    case StepKind::edge:
-      return "EdgeStep";
-    case StepKind::fold:
-      return "FoldStep";
-    case StepKind::whole:
-      return "WholeStep";
-  }
-  return "?";
-}
-
 const char* name_of(ParameterKind kind) {
   switch (kind) {
     case ParameterKind::number:
@@ -51,6 +36,13 @@ const char* name_of(ParameterKind kind) {
       return "choice";
   }
   return "?";
+}
+
+std::string StepDescription::base() const {
+  if (!items) return "WholeStep";
+  std::string text = items->name + "Step";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 const InputDescription* StepDescription::input(std::string_view n) const {

@@ -14,19 +14,13 @@
 
 namespace plumb {
 
-/// What one call of a step sees.
-enum class StepKind { frame, segment, edge, fold, whole };
-const char* name_of(StepKind kind);  ///< "FrameStep", ...
-
 /// How a step looks at one of its inputs.
 enum class Access {
-  item,        ///< the value of the same frame, segment or edge; or the one value of the pipeline
-  ends,        ///< the values of an edge's two segments
-  each,        ///< all values in order, opened one at a time (a SegmentStep sees its own frames)
-  several,     ///< any number of values, each with a label
-  relative,    ///< of Poses only T_i_j of the edge
-  over_edges,  ///< says which edges there are; its content is not seen
-  this_edge,   ///< the edge itself: kind, score, centroid distance
+  item,     ///< the value of the same item; or the one value of the pipeline
+  ends,     ///< the values of the two items that an item joins
+  each,     ///< all values in order, opened one at a time (of a step on items with parts: its own)
+  several,  ///< any number of values, each with a label
+  part,     ///< of one value of the pipeline what concerns the item alone
 };
 
 struct InputDescription {
@@ -35,6 +29,7 @@ struct InputDescription {
   Access access = Access::item;
   bool optional = false;
   std::string doc;
+  std::string sees;  ///< of a part, for people: "only T_i_j of the edge"
 };
 
 /// One value a call; many at once (one per segment); or many, made when they are asked for.
@@ -74,15 +69,27 @@ struct ParameterDescription {
 };
 
 struct StepDescription {
-  std::string name;  ///< FAMILY.NAME
-  int version = 1;   ///< raised when the same input gives another result
-  StepKind kind = StepKind::whole;
-  std::string summary;  ///< one line
-  std::string source;   ///< paper and section
-  std::string module;   ///< file it was loaded from; empty in a test
+  std::string name;                 ///< FAMILY.NAME
+  int version = 1;                  ///< raised when the same input gives another result
+  const ItemKind* items = nullptr;  ///< one call each; null: one call on whole collections
+  std::string summary;              ///< one line
+  std::string source;               ///< paper and section
+  std::string module;               ///< file it was loaded from; empty in a test
+  /// Which build of its code it is (build_identity.hpp): results are known by it, so that those of
+  /// an edited kernel are never taken for its own. Empty in a test.
+  std::string build;
+  bool across_builds = false;  ///< results are known by `version` alone
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
   std::vector<ParameterDescription> parameters;
+
+  bool itemwise() const { return items != nullptr; }
+  /// "SegmentStep", "WholeStep".
+  std::string base() const;
+  /// Whether an input says which items there are: of the type that lists them.
+  bool lists_items(const InputDescription& input) const {
+    return items && input.access == Access::part && input.type->name == items->list;
+  }
 
   const InputDescription* input(std::string_view name) const;
   const OutputDescription* output(std::string_view name) const;

@@ -29,7 +29,12 @@ std::vector<const Step*> load_module(const std::filesystem::path& file) {
   using Entry = const PlumbModule* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "plumb_module"));
   if (!entry) throw Error(name + ": is not a module of Plumb: it has no function plumb_module");
-  const PlumbModule* module = entry();
+  const PlumbModule* module = nullptr;
+  try {
+    module = entry();
+  } catch (const std::exception& e) {  // what it defines contradicts what is there
+    throw Error(name + ": cannot be used: " + e.what());
+  }
   if (!module || module->magic != module_magic)
     throw Error(name + ": is not a module of Plumb: its table starts with another number");
   if (module->table_version != module_table_version || std::string(module->abi_tag) != abi_tag())

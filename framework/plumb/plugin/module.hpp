@@ -10,17 +10,15 @@
 
 #include "plumb/plugin/declaration.hpp"
 
-#define PLUMB_SDK_ABI 2  ///< raised when anything in data/, plugin/ or geometry/ changes its layout
+#define PLUMB_SDK_ABI 3  ///< raised when anything in data/ or plugin/ changes its layout
 
 #define PLUMB_TEXT_(x) #x
 #define PLUMB_TEXT(x) PLUMB_TEXT_(x)
-/// What must be the same in a module and in libplumb: SDK, compiler, standard library, Eigen and
-/// its alignment.
-#define PLUMB_ABI_TAG \
+/// What must be the same in a module and in libplumb: SDK, compiler, standard library. How values
+/// lie in memory is compared type by type (define_type).
+#define PLUMB_ABI_TAG                                                                             \
   "plumb-sdk " PLUMB_TEXT(PLUMB_SDK_ABI) ", gcc " PLUMB_TEXT(__GNUC__) ", libstdc++ " PLUMB_TEXT( \
-      _GLIBCXX_RELEASE) " cxx11-abi " PLUMB_TEXT(_GLIBCXX_USE_CXX11_ABI) ", Eigen " PLUMB_TEXT(   \
-      EIGEN_WORLD_VERSION) "." PLUMB_TEXT(EIGEN_MAJOR_VERSION) ", EIGEN_MAX_ALIGN_BYTES " PLUMB_TEXT( \
-      EIGEN_MAX_ALIGN_BYTES)
+      _GLIBCXX_RELEASE) " cxx11-abi " PLUMB_TEXT(_GLIBCXX_USE_CXX11_ABI)
 
 extern "C" {
 /// Only the first three members are read before the tag is seen to fit.
@@ -38,12 +36,10 @@ namespace plumb {
 inline constexpr std::uint32_t module_magic = 0x504c554d;
 inline constexpr std::uint32_t module_table_version = 1;
 
-/// How the values that cross the boundary lie in memory here: instruction set and definitions
-/// change how Eigen aligns a pose.
+/// How what crosses the boundary lies in memory here.
 inline std::string abi_layout() {
-  return ", pose " + std::to_string(sizeof(Pose)) + "/" + std::to_string(alignof(Pose)) +
-         ", port " + std::to_string(sizeof(PortInput)) + "/" + std::to_string(sizeof(PortOutput)) +
-         ", segment " + std::to_string(sizeof(Segment));
+  return ", port " + std::to_string(sizeof(PortInput)) + "/" + std::to_string(sizeof(PortOutput)) +
+         ", type " + std::to_string(sizeof(Type)) + "/" + std::to_string(sizeof(TypeCode));
 }
 
 /// The table of a module with the steps S.

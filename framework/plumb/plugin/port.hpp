@@ -1,17 +1,18 @@
 #pragma once
 /// The members of a step's `In` and `Out`: their types say how the step looks at a wire.
 ///
-///   One<T>       the value of the same item (frame, segment, edge), or the one value of the
-///   pipeline Ends<T>      the values of an edge's two segments, .i and .j (EdgeStep) Each<T> all
-///   values in order, opened one at a time                             (WholeStep; SegmentStep: own
-///   frames) Several<T>   any number of pipeline values, each with a label (WholeStep) Relative of
-///   Poses only T_i_j of the edge                                       (EdgeStep) OverEdges which
-///   edges there are; the content is not seen and not in the key     (EdgeStep) ThisEdge     the
-///   edge itself                                                       (EdgeStep)
+///   One<T>      the value of the same item, or the one value of the pipeline
+///   Ends<T>     the values of the two items that an item joins, .i and .j (edges: two segments)
+///   Each<T>     all values in order, opened one at a time; of a step on items that are made of
+///               parts (segments: frames) those of its own parts
+///   Several<T>  any number of pipeline values, each with a label
 ///
-/// In `Out`: T (one value), std::vector<T> (one per segment, from a WholeStep or FoldStep), Lazy<T>
-/// (made when asked for). Many values open items of their own, unless the declaration says whose
-/// they are: `.output(...).over("segments")`.
+/// A part may add views of its own: InputTraits (port_traits.hpp), as slam/step.hpp does with
+/// Relative.
+///
+/// In `Out`: T (one value), std::vector<T> (one per item, from a WholeStep), Lazy<T> (made when
+/// asked for). Many values open items of their own, unless the declaration says whose they are:
+/// `.output(...).over("segments")`.
 
 #include <functional>
 #include <memory>
@@ -53,7 +54,8 @@ class Collection {
   virtual std::size_t size() const = 0;
   virtual AnyValue open(
       std::size_t k) const = 0;  ///< computed or fetched; safe from several threads
-  virtual const Edges* edges() const { return nullptr; }  ///< of edge-wise values
+  /// The list of the items that the values belong to; empty where their kind has none.
+  virtual AnyValue list() const { return {}; }
 };
 
 template <class T>
@@ -64,8 +66,8 @@ class Each {
   explicit operator bool() const { return items_ != nullptr; }
   std::size_t size() const { return items_->size(); }
   One<T> open(std::size_t k) const { return One<T>(items_->open(k).template as<T>()); }
-  /// The edges that edge-wise values belong to: value k is that of edges().list[k].
-  const Edges& edges() const { return *items_->edges(); }
+  /// Of values of a kind whose items are listed: the list. Value k belongs to its item k.
+  AnyValue list() const { return items_->list(); }
 
  private:
   std::shared_ptr<const Collection> items_;
@@ -79,19 +81,26 @@ struct Labelled {
 template <class T>
 using Several = std::vector<Labelled<T>>;
 
-struct Relative {
-  Pose T_i_j;
-  bool wired = false;
-  explicit operator bool() const { return wired; }
+/// Which item a call is about: its place, and of an item that joins two others theirs.
+struct ItemPlace {
+  std::size_t k = 0, i = 0, j = 0;
 };
-struct OverEdges {
-  bool wired = false;
+
+/// What a call sees of a value of the pipeline that concerns all items: the part of its own item.
+/// Nothing else of the value is in the call's key; an empty part is not in it either.
+struct SeenPart {
+  std::shared_ptr<const void> value;
+  Hash128 hash;
+  template <class T>
+  const T* as() const {
+    return static_cast<const T*>(value.get());
+  }
 };
-struct ThisEdge {
-  Edge edge;
-  bool wired = false;
-  explicit operator bool() const { return wired; }
-};
+template <class T>
+SeenPart seen_part(T value) {
+  const Hash128 hash = content_hash(value);
+  return {std::make_shared<const T>(std::move(value)), hash};
+}
 
 /// Values that are made when they are asked for, such as frames read from files.
 template <class T>

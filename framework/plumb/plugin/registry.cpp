@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "plumb/data/error.hpp"
+#include "plumb/data/hash.hpp"
 #include "plumb/data/io/file_text.hpp"
+#include "plumb/plugin/build_identity.hpp"
 #include "plumb/plugin/manifest.hpp"
 #include "plumb/plugin/trusted_file.hpp"
 
@@ -74,8 +76,13 @@ Registry Registry::scan(const std::vector<fs::path>& folders) {
 void Registry::take(const fs::path& module) {
   try {
     Manifest manifest = manifest_of(module);
+    licences_[module.string()] = manifest.licence;
+    Hasher build;
+    build.text(build_of(module));
+    build.text(build_of_libraries());
     for (StepDescription& step : manifest.steps) {
       step.module = module.string();
+      step.build = build.hash().text();
       const auto [at, is_new] = entries_.try_emplace(step.name);
       if (is_new)
         at->second.description = std::move(step);
@@ -101,6 +108,12 @@ std::vector<const StepDescription*> Registry::all() const {
   std::vector<const StepDescription*> list;
   for (const auto& [name, entry] : entries_) list.push_back(&entry.description);
   return list;
+}
+
+const Licence& Registry::licence_of(const StepDescription& step) const {
+  static const Licence not_stated{};
+  const auto at = licences_.find(step.module);
+  return at == licences_.end() ? not_stated : at->second;
 }
 
 const Step& Registry::step(const std::string& name) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/plugin/licence.hpp"
 #include "plumb/plugin/step.hpp"
 
 namespace plumb {
@@ -36,6 +37,8 @@ class Registry {
 
   const StepDescription* find(std::string_view name) const;
   std::vector<const StepDescription*> all() const;  ///< by name
+  /// Of the module that a step comes from, by its manifest.
+  const Licence& licence_of(const StepDescription& step) const;
   const std::vector<Refusal>& refused() const { return refused_; }
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
@@ -50,6 +53,7 @@ class Registry {
     const Step* step = nullptr;  // of add()
   };
   std::map<std::string, Entry, std::less<>> entries_;
+  std::map<std::string, Licence> licences_;  // by module
   std::vector<Refusal> refused_;
   std::vector<std::filesystem::path> folders_;
 };

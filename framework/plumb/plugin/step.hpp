@@ -1,6 +1,7 @@
 #pragma once
-/// The five step bases, and the one face that the engine sees of any step.
+/// The step bases, and the one face that the engine sees of any step.
 
+#include <optional>
 #include <span>
 
 #include "plumb/plugin/description.hpp"
@@ -9,29 +10,21 @@
 namespace plumb {
 
 /// A step derives from the base that says what one call sees, and has
-///   struct In  {...};   members of port.hpp's kinds
+///   struct In  {...};     members of port.hpp's kinds
 ///   struct Out {...};
-///   struct Params {...};                      plain, with defaults; optionally std::string check()
-///   const: "" or what is wrong static void describe(Declaration<Self>&); name, version, ports,
-///   parameters: see declaration.hpp Out run(const In&, const Params&, Context&) const;
-struct FrameStep {
-  static constexpr StepKind kind = StepKind::frame;
-};
-struct SegmentStep {
-  static constexpr StepKind kind = StepKind::segment;
-};
-struct EdgeStep {
-  static constexpr StepKind kind = StepKind::edge;
-};
+///   struct Params {...};  plain, with defaults; optionally std::string check() const: "" or what
+///                         is wrong
+///   static void describe(Declaration<Self>&);   name, version, ports, parameters: declaration.hpp
+///   Out run(const In&, const Params&, Context&) const;
+
+/// One call sees whole collections.
 struct WholeStep {
-  static constexpr StepKind kind = StepKind::whole;
+  static const ItemKind* items() { return nullptr; }
 };
-/// A FoldStep sees frames in order. Instead of run it has
-///   struct State {...};  with fields(archive, state), so that it can be saved and taken up
-///   void fold(State&, const In&, const Params&, Context&) const;   In holds one One<Frame>; other
-///   members are pipeline values Out finish(State&&, const Params&, Context&) const;
-struct FoldStep {
-  static constexpr StepKind kind = StepKind::fold;
+/// One call sees one item of a kind: `using SegmentStep = ItemStep<&segment_kind>;`
+template <const ItemKind& (*Kind)()>
+struct ItemStep {
+  static const ItemKind* items() { return &define_kind(Kind()); }
 };
 
 /// One input of one call, of unknown type.
@@ -40,8 +33,7 @@ struct PortInput {
   AnyValue one, other;  ///< item; ends: i in one, j in other
   std::shared_ptr<const Collection> each;
   std::vector<std::pair<std::string, AnyValue>> several;
-  Pose T_i_j;
-  Edge edge;
+  SeenPart part;
 };
 
 /// What a lazy output makes.
@@ -70,14 +62,10 @@ class Step {
   virtual void run(const void* params, std::span<const PortInput> inputs,
                    std::span<PortOutput> outputs, Context& context) const = 0;
 
-  /// A fold's state: made fresh, or from the bytes of a saved one; saved; moved on by one frame;
-  /// finished.
-  virtual std::shared_ptr<void> begin(std::string_view saved) const = 0;
-  virtual std::string save(const void* state) const = 0;
-  virtual void fold(void* state, const void* params, std::span<const PortInput> inputs,
-                    Context& context) const = 0;
-  virtual void finish(void* state, const void* params, std::span<PortOutput> outputs,
-                      Context& context) const = 0;
+  /// Of an input that sees a part of a value: that of an item.
+  virtual SeenPart part(std::size_t input, const void* value, const ItemPlace& item) const = 0;
+  /// How many of the items that an item joins the value is about; none when it does not say.
+  virtual std::optional<std::size_t> ends_count(std::size_t input, const void* value) const = 0;
 
  protected:
   StepDescription description_;

@@ -3,8 +3,8 @@
 /// port name. A test of a module includes this, and plumb_module() of the module itself is linked
 /// in.
 ///
-///   StepRun step(*plumb_module());
-///   step.with("matches", matches).at("poses", T_i_j).set("max", 0.5);
+///   StepUnderTest step(*plumb_module());
+///   step.with("matches", matches).part("poses", T_i_j).set("max", 0.5);
 ///   const auto kept = step.run<Matches>("matches", context);
 
 #include <gtest/gtest.h>
@@ -16,9 +16,9 @@ extern "C" const PlumbModule* plumb_module();
 
 namespace plumb {
 
-class StepRun {
+class StepUnderTest {
  public:
-  explicit StepRun(const PlumbModule& module, std::size_t which = 0)
+  explicit StepUnderTest(const PlumbModule& module, std::size_t which = 0)
       : step_(module.steps[which]), inputs_(step_->description().inputs.size()) {
     for (const auto& p : step_->description().parameters)
       if (!p.required) values_[p.name] = p.standard;
@@ -26,50 +26,44 @@ class StepRun {
 
   /// The item's, or the pipeline's, value.
   template <class T>
-  StepRun& with(std::string_view port, T value) {
+  StepUnderTest& with(std::string_view port, T value) {
     input(port).one = any_value(std::move(value));
     return *this;
   }
   template <class T>
-  StepRun& ends(std::string_view port, T i, T j) {
+  StepUnderTest& ends(std::string_view port, T i, T j) {
     input(port).one = any_value(std::move(i));
     inputs_[place(port)].other = any_value(std::move(j));
     return *this;
   }
   template <class T>
-  StepRun& each(std::string_view port, std::vector<T> values, Edges edges = {}) {
-    struct Held : Collection {
-      std::vector<AnyValue> items;
-      Edges graph;
-      std::size_t size() const override { return items.size(); }
-      AnyValue open(std::size_t k) const override { return items[k]; }
-      const Edges* edges() const override { return &graph; }
-    };
-    auto held = std::make_shared<Held>();
-    held->graph = std::move(edges);
-    for (auto& value : values) held->items.push_back(any_value(std::move(value)));
-    input(port).each = held;
+  StepUnderTest& each(std::string_view port, std::vector<T> values) {
+    input(port).each = held(std::move(values), {});
+    return *this;
+  }
+  /// Values that belong to the items of a list.
+  template <class T, class List>
+  StepUnderTest& each(std::string_view port, std::vector<T> values, List list) {
+    input(port).each = held(std::move(values), any_value(std::move(list)));
     return *this;
   }
   /// Adds one to any number of labelled values.
   template <class T>
-  StepRun& add(std::string_view port, std::string label, T value) {
+  StepUnderTest& add(std::string_view port, std::string label, T value) {
     input(port).several.emplace_back(std::move(label), any_value(std::move(value)));
     return *this;
   }
-  StepRun& at(std::string_view port, const Pose& T_i_j) {
-    input(port).T_i_j = T_i_j;
+  /// What the item sees of a value of the pipeline: T_i_j, an edge.
+  template <class T>
+  StepUnderTest& part(std::string_view port, T value) {
+    input(port).part = seen_part(std::move(value));
     return *this;
   }
-  StepRun& edge(std::string_view port, const Edge& edge) {
-    input(port).edge = edge;
-    return *this;
-  }
-  StepRun& over(std::string_view port) {
+  StepUnderTest& over(std::string_view port) {
     input(port);
     return *this;
   }
-  StepRun& set(const std::string& parameter, ParameterValue value) {
+  StepUnderTest& set(const std::string& parameter, ParameterValue value) {
     const auto* description = step_->description().parameter(parameter);
     EXPECT_NE(description, nullptr) << "no parameter " << parameter;
     if (description) {

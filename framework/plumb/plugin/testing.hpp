@@ -25,20 +25,28 @@ class TestContext : public Context {
   std::uint64_t seed_;
 };
 
-/// An Each over values held in memory; `edges` for edge-wise values.
+/// A collection of values held in memory; `list` for those of listed items (edges).
 template <class T>
-Each<T> each_of(std::vector<T> values, Edges edges = {}) {
+std::shared_ptr<const Collection> held(std::vector<T> values, AnyValue list) {
   struct Held : Collection {
     std::vector<AnyValue> items;
-    Edges graph;
+    AnyValue of;
     std::size_t size() const override { return items.size(); }
     AnyValue open(std::size_t k) const override { return items[k]; }
-    const Edges* edges() const override { return &graph; }
+    AnyValue list() const override { return of; }
   };
-  auto held = std::make_shared<Held>();
-  held->graph = std::move(edges);
-  for (auto& value : values) held->items.push_back(any_value(std::move(value)));
-  return Each<T>(held);
+  auto all = std::make_shared<Held>();
+  all->of = std::move(list);
+  for (auto& value : values) all->items.push_back(any_value(std::move(value)));
+  return all;
+}
+template <class T>
+Each<T> each_of(std::vector<T> values) {
+  return Each<T>(held(std::move(values), {}));
+}
+template <class T, class List>
+Each<T> each_of(std::vector<T> values, List list) {
+  return Each<T>(held(std::move(values), any_value(std::move(list))));
 }
 
 }  // namespace plumb

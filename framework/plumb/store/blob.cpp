@@ -33,10 +33,10 @@ AnyValue take_any(InArchive& in) {
   int version = 0;
   in(name, version);
   const Type* type = find_type(name);
-  if (!type || type->version != version)
+  if (!type || !type->code || type->version != version)
     throw UnknownType("holds values of a type that this program does not know");
-  AnyValue value{type, type->read(in)};
-  if (const char* fault = type->fault(value.value.get()); *fault)
+  AnyValue value{type, type->code->read(in)};
+  if (const char* fault = type->code->fault(value.value.get()); *fault)
     throw Error(std::string("holds ") + fault);
   return value;
 }
@@ -77,8 +77,8 @@ void write_body(const Hash128& key, const StoredResult& result, std::string_view
   for (const auto& values : result.outputs) {
     out(static_cast<std::uint64_t>(values.size()));
     for (const AnyValue& value : values) {
-      out(std::string(value.type->name), value.type->version);
-      value.type->write(value.value.get(), out);
+      out(value.type->name, value.type->version);
+      value.type->code->write(value.value.get(), out);
     }
   }
   out(static_cast<std::uint64_t>(result.counts.size()));
@@ -92,7 +92,7 @@ std::size_t size_of_blob(const StoredResult& result) {
   std::size_t size = 1024;
   for (const auto& values : result.outputs)
     for (const AnyValue& value : values)
-      size += value.type->bytes(value.value.get()) + 32 * array_alignment;
+      size += value.type->code->bytes(value.value.get()) + 32 * array_alignment;
   return size;
 }
 

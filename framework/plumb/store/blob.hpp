@@ -32,7 +32,7 @@ void give_blob(const Hash128& key, const StoredResult& result, std::string_view 
                const std::function<void(std::string_view)>& take);
 
 /// Reads them back. None, and why if that is asked: another key, cut, altered, values of a type or
-/// version that this program does not know, or one that no step may give (data/fault.hpp), which a
+/// version that this program does not know, or one that no step may give (TypeCode::fault), which a
 /// right checksum does not make good.
 std::optional<StoredResult> read_blob(const Hash128& key, std::string_view bytes,
                                       std::string* why = nullptr);

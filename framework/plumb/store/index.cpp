@@ -1,58 +1,22 @@
-/// What is asked of the index and written to it. How it is opened, checked and closed:
-/// index_life.cpp.
+/// What is asked of the index and written to it. What it knows of whole steps: index_recalled.cpp;
+/// how it is opened, checked and closed: index_file.cpp.
 #include "plumb/store/index.hpp"
 
-#include <chrono>
-#include <set>
+#include <algorithm>
 
-#include "plumb/data/archive.hpp"
 #include "plumb/store/blob_file.hpp"
-#include "plumb/store/database.hpp"
+#include "plumb/store/index_file.hpp"
+#include "plumb/store/index_rows.hpp"
 #include "plumb/store/index_tables.hpp"
 
 namespace plumb {
-namespace {
 
-std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
+Index::Index(std::filesystem::path store, Whose whose)
+    : store_(std::move(store)), file_(std::make_unique<IndexFile>(store_, whose)) {}
+Index::~Index() { flush(); }
 
-[[noreturn]] void refuse_row(const char* table) {
-  throw DatabaseError(DatabaseError::Cause::damage,
-                      std::string("a row of its table '") + table + "' is not as it was written");
-}
-
-constexpr const char* put_result =
-    "INSERT OR REPLACE INTO results VALUES(?1, ?2, ?3, ?4, ?5, row_sum(?1, ?2, ?3, ?4, ?5))";
-
-}  // namespace
-
-template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Fact>
-void fields(Archive& a, T& fact) { a(fact.name, fact.value); }
-
-Index::Index(std::filesystem::path store, Whose whose) : store_(std::move(store)), whose_(whose) {
-  open();
-}
-Index::~Index() { close(); }
-
-/// Runs what asks the database. When that is found to be damaged it is made anew and asked again;
-/// what else is wrong ends its use.
-template <class Action>
-void Index::with_database(Action action) {
-  const std::lock_guard lock(database_mutex_);
-  for (int attempt = 0; database_ && attempt < 2; ++attempt) {
-    try {
-      return action(*database_);
-    } catch (const DatabaseError& e) {
-      if (e.cause() == DatabaseError::Cause::busy) return database_->wait_no_more();
-      if (e.cause() == DatabaseError::Cause::system) return fail(e.what());
-      mend_while_open(e.what());
-    }
-  }
-}
+std::string Index::rebuilt() const { return file_->rebuilt(); }
+std::string Index::fault() const { return file_->fault(); }
 
 void Index::made(const Hash128& key, std::string_view step, std::uint64_t bytes) {
   const std::lock_guard lock(notes_mutex_);
@@ -78,7 +42,7 @@ std::vector<Fact> Index::facts(const std::string& pipeline, const std::string& p
       return at->second;
   }
   std::vector<Fact> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT facts, sum IS row_sum(pipeline, path, pass, facts) FROM facts WHERE "
                   "pipeline = ?1 AND path = ?2 AND pass = ?3");
@@ -109,7 +73,7 @@ std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t s
                  : std::nullopt;
   }
   std::optional<Hash128> found;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Statement ask(database,
                   "SELECT size, mtime_ns, hash, sum IS row_sum(path, size, mtime_ns, hash) FROM "
                   "file_hashes WHERE path = ?1");
@@ -135,7 +99,7 @@ void Index::flush() {
   }
   if (notes.empty()) return;
   bool written = false;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     Transaction transaction(database);
     write(database, notes);
     transaction.commit();
@@ -146,6 +110,8 @@ void Index::flush() {
   notes_.results.merge(notes.results);
   notes_.facts.merge(notes.facts);
   notes_.file_hashes.merge(notes.file_hashes);
+  notes_.recalled.merge(notes.recalled);
+  notes_.recalled_again.merge(notes.recalled_again);
 }
 
 void Index::write(Database& database, const Notes& notes) {
@@ -180,44 +146,39 @@ void Index::write(Database& database, const Notes& notes) {
       "INSERT OR REPLACE INTO file_hashes VALUES(?1, ?2, ?3, ?4, row_sum(?1, ?2, ?3, ?4))");
   for (const auto& [path, seen] : notes.file_hashes)
     put_hash.with(path, seen.size, seen.mtime_ns, seen.hash).run();
-}
-
-/// Gives rows to files that have none and takes those away that have no file.
-void Index::follow_files(Database& database) {
-  std::set<Hash128> without;  // first all rows, in the end those without a file
-  Statement all(database, "SELECT key FROM results");
-  while (all.next()) without.insert(all.hash(0));
-  Transaction transaction(database);
-  Statement put(database, put_result), take(database, "DELETE FROM results WHERE key = ?1");
-  for_each_blob(store_, [&](const Hash128& key, const std::filesystem::path& blob) {
-    if (without.erase(key) > 0) return;
-    std::error_code error;
-    const auto bytes = size_of_file(blob);
-    const auto written = std::filesystem::last_write_time(blob, error);
-    const auto head = head_in(blob, key);
-    if (error || !bytes || !head) return;  // gone, or no blob: whoever looks for it will tell
-    const auto made = std::chrono::duration_cast<std::chrono::milliseconds>(
-                          std::chrono::file_clock::to_sys(written).time_since_epoch())
-                          .count();
-    put.with(key, head->step, *bytes, made, made).run();
-  });
-  for (const Hash128& key : without) take.with(key).run();
-  transaction.commit();
+  Statement put_recalled(database,
+                         "INSERT OR REPLACE INTO recalled VALUES(?1, ?2, ?3, row_sum(?1, ?2, ?3))");
+  for (const auto& [key, recalled] : notes.recalled)
+    put_recalled.with(key, Bytes{to_bytes(recalled)}, now_ms()).run();
+  Statement again(database,
+                  "UPDATE recalled SET used = ?2, sum = row_sum(key, recalled, ?2) WHERE key = ?1 "
+                  "AND sum IS row_sum(key, recalled, used)");
+  for (const auto& [key, time] : notes.recalled_again) again.with(key, time).run();
 }
 
 void Index::check() {
   flush();
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     if (const std::string why = damage_in(database); !why.empty())
       throw DatabaseError(DatabaseError::Cause::damage, why);
-    follow_files(database);
+    follow_files(database, store_);
   });
+}
+
+std::uint64_t Index::bytes() {
+  flush();
+  std::int64_t all = 0;
+  file_->with([&](Database& database) {
+    Statement ask(database, "SELECT sum(bytes) FROM results");
+    if (ask.next()) all = ask.number(0);
+  });
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(all, 0));
 }
 
 std::vector<IndexRow> Index::rows() {
   flush();
   std::vector<IndexRow> all;
-  with_database([&](Database& database) {
+  file_->with([&](Database& database) {
     std::vector<IndexRow> rows;
     Statement ask(database,
                   "SELECT key, step, bytes, made, used, sum IS row_sum(key, step, bytes, made, "

@@ -20,6 +20,7 @@
 namespace plumb {
 
 class Database;
+class IndexFile;
 
 /// One result of a store.
 struct IndexRow {
@@ -35,13 +36,30 @@ struct Fact {
   bool operator==(const Fact&) const = default;
 };
 
+/// What a count of a result is called, and how many.
+struct CountOf {
+  std::string what;
+  std::uint64_t n = 0;
+};
+
+/// What a whole step gave in an earlier run, as far as it can be known without opening a result.
+struct Recalled {
+  std::vector<Hash128> items;                ///< by item: keys of its results
+  Hash128 whole;                             ///< key of the result of a step on whole collections
+  std::vector<std::vector<Hash128>> values;  ///< of that, by output: hashes of its values
+  std::vector<std::string> numbers;          ///< by output: bytes of a value with numbers, or none
+  std::vector<CountOf> counts;
+  std::vector<std::string> warnings;
+  std::vector<Fact> facts;
+};
+
 /// The index of a store, which holds nothing that the results do not say themselves but when they
 /// were used, why they were made, and hashes of input files:
 ///
-///     DIR/index.sqlite   the tables results, facts and file_hashes; each row with its own checksum
-///     DIR/index.lock     locked by all who use the index, shared; alone by the first who opens and
-///     the last who closes it (index_life.cpp) DIR/index.sum      XXH3-128 of index.sqlite, while
-///     nobody uses it
+///     DIR/index.sqlite   the tables results, facts, file_hashes and recalled; each row with its
+///                        own checksum
+///     DIR/index.lock     locked by all who use the index (index_file.hpp)
+///     DIR/index.sum      XXH3-128 of index.sqlite, while nobody uses it
 ///
 /// A damaged index is noticed and made anew from the results. What is written is collected and
 /// reaches the disk by flush(). Nothing here throws because of what is on the disk: an index that
@@ -64,6 +82,14 @@ class Index {
   void set_facts(const std::string& pipeline, const std::string& path, int pass,
                  std::vector<Fact> facts);
 
+  /// What was remembered of a step under a key of its own (engine/run/step_recall.cpp).
+  std::optional<Recalled> recalled(const Hash128& key);
+  void set_recalled(const Hash128& key, Recalled recalled);
+  /// Counts the results of what was recalled as used when it was, and forgets what was last
+  /// recalled before `oldest` [ms since 1970], what has no result left, and, of steps that have no
+  /// results of their own, what was last recalled a day before any result that is left was used.
+  void settle_recalled(std::int64_t oldest);
+
   /// The content hash of an input file that had this size and time of change [ns]; none when it is
   /// not known.
   std::optional<Hash128> file_hash(const std::string& path, std::uint64_t size,
@@ -76,6 +102,8 @@ class Index {
   /// Looks at every row, and gives rows to results that have none, and takes those away that have
   /// no result.
   void check();
+  /// What all results take, by one question to the database.
+  std::uint64_t bytes();
   /// All results, least recently used first.
   std::vector<IndexRow> rows();
 
@@ -101,33 +129,20 @@ class Index {
     std::unordered_map<Hash128, Note, Hash128Hash> results;
     std::map<FactsOf, std::vector<Fact>> facts;
     std::map<std::string, FileHash> file_hashes;
-    bool empty() const { return results.empty() && facts.empty() && file_hashes.empty(); }
+    std::unordered_map<Hash128, Recalled, Hash128Hash> recalled;
+    std::unordered_map<Hash128, std::int64_t, Hash128Hash> recalled_again;
+    bool empty() const {
+      return results.empty() && facts.empty() && file_hashes.empty() && recalled.empty() &&
+             recalled_again.empty();
+    }
   };
 
-  template <class Action>
-  void with_database(Action action);
   void write(Database& database, const Notes& notes);
-  void follow_files(Database& database);
-
-  // index_life.cpp
-  void open();
-  void close();
-  void mend();
-  void seal();
-  void connect();
-  void mend_while_open(const std::string& why);
-  void rebuild(const std::string& why);
-  void fail(const std::string& why);
-  std::filesystem::path file() const { return store_ / "index.sqlite"; }
 
   std::filesystem::path store_;
-  Whose whose_;
-  int lock_ = -1;
-  std::mutex notes_mutex_, database_mutex_;
-  mutable std::mutex said_mutex_;
-  Notes notes_;                         ///< what flush() is to write
-  std::unique_ptr<Database> database_;  ///< none: not to be used
-  std::string rebuilt_, fault_;
+  std::mutex notes_mutex_;
+  Notes notes_;  ///< what flush() is to write
+  std::unique_ptr<IndexFile> file_;
 };
 
 }  // namespace plumb

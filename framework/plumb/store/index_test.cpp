@@ -52,6 +52,9 @@ void expect_whole(Store& store) {
   }
   const auto rows = store.index()->rows();
   ASSERT_EQ(rows.size(), few);
+  std::uint64_t bytes = 0;
+  for (const IndexRow& row : rows) bytes += row.bytes;
+  EXPECT_EQ(store.index()->bytes(), bytes);
   for (const IndexRow& row : rows) {
     EXPECT_EQ(row.step, row.key.high % 2 ? "odd.step" : "even.step");
     EXPECT_EQ(row.bytes, store.bytes_of(row.key));
@@ -101,6 +104,35 @@ TEST(Index, ListsWhatWasUsedLastInTheEnd) {
   EXPECT_EQ(rows[few - 1].key, (Hash128{2, 14}));
   EXPECT_EQ(rows[few - 2].key, (Hash128{4, 28}));
   EXPECT_LT(rows[few - 1].made, rows[few - 1].used);
+}
+
+/// A step with results of its own and one whose values pass through, recalled in one run.
+TEST(Index, KnowsRecalledStepsAsLongAsResultsOfTheirTimeAreLeft) {
+  const io::TestFolder folder;
+  Store store(filled(folder));
+  usleep(3000);
+  Index& index = *store.index();
+  const Hash128 with_results{1000, 1}, passing{1000, 2}, without{1000, 3};
+  Recalled recalled;
+  recalled.counts = {{"points dropped", 3}};
+  index.set_recalled(passing, recalled);
+  recalled.items = {{4, 28}, {5, 35}};
+  index.set_recalled(with_results, recalled);
+  recalled.items = {{4, 29}};
+  index.set_recalled(without, recalled);
+  index.settle_recalled(0);
+  EXPECT_TRUE(index.recalled(with_results));
+  ASSERT_TRUE(index.recalled(passing));
+  EXPECT_EQ(index.recalled(passing)->counts.at(0).n, 3u);
+  EXPECT_FALSE(index.recalled(without)) << "none of its results is left";
+  const auto rows = index.rows();
+  EXPECT_THAT((std::vector{rows[few - 2].key, rows[few - 1].key}),
+              testing::UnorderedElementsAre(Hash128{4, 28}, Hash128{5, 35}))
+      << "their recall is their last use";
+  for (const IndexRow& row : rows) store.remove(row.key);
+  index.settle_recalled(0);
+  EXPECT_FALSE(index.recalled(with_results));
+  EXPECT_FALSE(index.recalled(passing));
 }
 
 TEST(Index, NoticesEachByteThatChangedAndIsMadeAnew) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,7 @@ struct StoredResult {
   std::vector<std::string> warnings;
 };
 
+class Holds;
 class Index;
 
 /// Whether a process decides what is made, or makes what it is told. Only a driver uses the index:
@@ -34,11 +36,15 @@ enum class StoreRole { driver, worker };
 /// What was looked for and not found good in a result: "" for nothing.
 using FaultOf = std::function<std::string(const StoredResult&)>;
 
+/// The file by which a store is known.
+inline constexpr const char* store_mark = "plumb-store";
+
 /// A folder of results under their keys, a file each:
 ///
 ///     DIR/plumb-store            "plumb store 2"
 ///     DIR/blobs/4f/4f0c...e1     what blob.hpp says, 32 hexadecimal digits of the key
 ///     DIR/new/                   files that are being written
+///     DIR/runs/                  what the runs in progress need (holds.hpp)
 ///     DIR/index.*                what is known of them without opening them (index.hpp)
 ///
 /// A result is written to `new` and renamed, so that it is there whole or not at all after a kill;
@@ -46,15 +52,16 @@ using FaultOf = std::function<std::string(const StoredResult&)>;
 /// may share a folder. All functions are safe from several threads.
 ///
 /// What lies in a store is believed no more than what a step gives: values are checked when they
-/// are read (data/fault.hpp), only regular files are, and links are not followed. The folder is
+/// are read (TypeCode::fault), only regular files are, and links are not followed. The folder is
 /// made for this user alone; one that others own or may write is refused, as are such files in it,
 /// unless that is asked for.
 class Store {
  public:
   /// Opens or makes the folder. Throws Error: it is not a store and not empty, a store of another
-  /// format, another's, or cannot be written.
+  /// format, another's, or cannot be written; its sentence begins with `title`, what the user would
+  /// change for another folder ("" for "--cache-dir FOLDER").
   explicit Store(const std::filesystem::path& folder, StoreRole role = StoreRole::driver,
-                 Whose whose = Whose::own);
+                 Whose whose = Whose::own, const std::string& title = "");
   ~Store();  ///< syncs
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
@@ -79,8 +86,15 @@ class Store {
   /// Writes what the system still holds in memory to the disk, and what the index has collected.
   void sync();
 
+  /// Has other runs leave results where they are until this object is gone (size_bound.hpp), as
+  /// they do with all that was found, looked for or put.
+  void hold(std::span<const Hash128> keys) const;
+
   const std::filesystem::path& folder() const { return folder_; }
-  Index* index() { return index_.get(); }  ///< none for a worker
+  Index* index() { return index_.get(); }              ///< none for a worker
+  const Holds* holds() const { return holds_.get(); }  ///< none for a worker
+  /// What was put here, by this process and by those that work for it.
+  std::uint64_t kept_bytes() const { return kept_bytes_; }
   Whose whose() const { return whose_; }
   std::size_t damaged() const { return damaged_; }
   /// The first of them, and what was wrong with it; empty when there was none.
@@ -94,23 +108,19 @@ class Store {
   std::string index_fault() const;
 
  private:
-  void make_folder(StoreRole role) const;
-  void judge() const;
-  void read_mark() const;
-  void require_folders() const;
-  [[noreturn]] void refuse(const std::string& why) const;
-  [[noreturn]] void refuse_unwritable(int why) const;
   void damage(const Hash128& key, const std::string& why);  ///< removes it, and remembers the first
   bool fail(const std::string& why);                        ///< remembers the first; false
 
-  std::filesystem::path given_, folder_;
+  std::filesystem::path folder_;
   Whose whose_;
-  std::unique_ptr<Index> index_;
   std::atomic<std::size_t> damaged_ = 0, written_ = 0;
   std::atomic<bool> failed_ = false;
   std::string
       token_;  ///< of this process among all that write into the folder, on whatever machine
   std::string fault_, damage_;
+  std::atomic<std::uint64_t> kept_bytes_ = 0;
+  std::unique_ptr<Index> index_;
+  std::unique_ptr<Holds> holds_;
 };
 
 }  // namespace plumb

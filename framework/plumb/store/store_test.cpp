@@ -81,27 +81,32 @@ TEST(Store, MakesAgainWhateverByteOfAFileChanged) {
 }
 
 TEST(Store, LaysArraysWhereTheyCanBeMapped) {
-  Segment segment;
-  segment.range.end = 10;
-  segment.range.T_segment_frame.resize(10);
-  segment = segment.with(io::full_cloud(77), std::vector<std::uint16_t>(77, 9));
-  const std::string blob = blob_of({1, 2}, {{{any_value(segment)}}, {}, {}}, "a.step");
+  toy::Segment segment{{0, 10}, {}, std::vector<std::uint16_t>(77, 9)};
+  toy::Matches matches;
+  for (int k = 0; k < 77; ++k) {
+    const auto f = static_cast<float>(k);
+    segment.points.push_back(0.1f + f), matches.p.push_back(-2.5f * f);
+    matches.q.push_back(1e-3f * f * f), matches.weight.push_back(100 + f / 3);
+  }
+  const std::string blob =
+      blob_of({1, 2}, {{{any_value(segment)}, {any_value(matches)}}, {}, {}}, "a.step");
   const auto place_of = [&](const auto& array) {
     return blob.find(std::string_view(reinterpret_cast<const char*>(array.data()),
                                       array.size() * sizeof array[0]));
   };
-  for (const auto* array :
-       {&segment.cloud.x, &segment.cloud.y, &segment.cloud.intensity, &segment.cloud.nx}) {
+  for (const auto* array : {&segment.points, &matches.p, &matches.q, &matches.weight}) {
     ASSERT_NE(place_of(*array), std::string::npos);
     EXPECT_EQ(place_of(*array) % 16, 0u);
   }
-  EXPECT_EQ(place_of(segment.cloud.ring) % 16, 0u);
-  const auto back = read_blob({1, 2}, blob)->outputs[0][0].as<Segment>();
-  EXPECT_EQ(content_hash(*back), content_hash(segment));
+  EXPECT_EQ(place_of(segment.frame) % 16, 0u);
+  const auto back = read_blob({1, 2}, blob);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(content_hash(*back->outputs[0][0].as<toy::Segment>()), content_hash(segment));
+  EXPECT_EQ(content_hash(*back->outputs[1][0].as<toy::Matches>()), content_hash(matches));
 }
 
 TEST(Store, HashesArraysWithoutWhatAlignsThem) {
-  const Descriptor value{{1, 2, 3}};
+  const toy::Features value{{1, 2, 3}};
   Hasher hasher;
   const std::uint64_t size = 3;
   hasher.bytes(&size, sizeof size);

@@ -4,28 +4,23 @@
 #include <filesystem>
 #include <vector>
 
+#include "plumb/data/toy_testing.hpp"
 #include "plumb/store/store.hpp"
 
 namespace plumb {
 
-inline Poses small_poses(double x) {
-  Poses poses;
-  poses.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, 2, 3));
-  return poses;
-}
-
 /// A result that is known by `x`: three outputs, one of several values and one of none, a count and
 /// a warning.
 inline StoredResult small_result(double x) {
-  Metrics metrics;
+  toy::Metrics metrics;
   metrics.add("rmse", x, "m");
-  return {{{any_value(small_poses(x))}, {any_value(metrics), any_value(metrics)}, {}},
+  return {{{any_value(toy::Poses{{x, 2, 3}})}, {any_value(metrics), any_value(metrics)}, {}},
           {{"points dropped", 7}},
           {"poor"}};
 }
 
 inline double x_of(const StoredResult& stored) {
-  return stored.outputs[0][0].as<Poses>()->T_world_segment[0].translation.x();
+  return stored.outputs[0][0].as<toy::Poses>()->places[0];
 }
 
 inline std::vector<std::filesystem::path> blobs_in(const std::filesystem::path& store) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/store/blob_file.hpp"
@@ -153,6 +154,10 @@ TEST_F(Stranger, PutALinkInThePlaceOfAFolder) {
   fs::remove(path / "new");
   fs::create_symlink(elsewhere, path / "jobs");
   EXPECT_THAT(refused(), HasSubstr("its 'jobs' is not a directory of its own"));
+  fs::remove(path / "jobs");
+  fs::remove(path / "runs");
+  fs::create_symlink(elsewhere, path / "runs");
+  EXPECT_THAT(refused(), HasSubstr("its 'runs' is not a directory of its own"));
 }
 
 TEST_F(Stranger, PutAPipeInThePlaceOfTheMark) {
@@ -203,8 +208,7 @@ TEST_F(Stranger, IsFoundByVerify) {
   fs::remove(blob_file(path, {9, 1}));
   mkfifo(blob_file(path, {9, 1}).c_str(), 0600);
   chmod(blob_file(path, {9, 2}).c_str(), 0666);
-  Poses poses = small_poses(1);
-  poses.T_world_segment[0].translation.x() = std::numeric_limits<double>::infinity();
+  const toy::Poses poses{{std::numeric_limits<double>::infinity(), 2, 3}};
   ASSERT_TRUE(replace_whole(blob_file(path, {9, 3}),
                             blob_of({9, 3}, {{{any_value(poses)}}, {}, {}}, "a.step")));
   Store store(path);
@@ -214,8 +218,7 @@ TEST_F(Stranger, IsFoundByVerify) {
 }
 
 TEST_F(Stranger, GivesNoValueThatNoStepMayGive) {
-  Edges edges;
-  edges.segments = 2, edges.list = {{0, 1}};
+  toy::Edges edges{2, {{0, 1}}};
   const auto blob_with = [&](const AnyValue& value) {
     return blob_of(key, {{{value}}, {}, {}}, "a.step");
   };
@@ -226,8 +229,7 @@ TEST_F(Stranger, GivesNoValueThatNoStepMayGive) {
   EXPECT_FALSE(read_blob(key, blob_with(any_value(edges)), &why));
   EXPECT_THAT(why, HasSubstr("holds an edge between segments that there are not"));
   EXPECT_FALSE(check_blob(key, blob_with(any_value(edges))));
-  Matches matches;
-  matches.p.resize(3);
+  const toy::Matches matches{{1, 2, 3}, {}, {}};
   EXPECT_FALSE(read_blob(key, blob_with(any_value(matches)), &why));
   EXPECT_THAT(why, HasSubstr("columns are not equally long"));
   EXPECT_FALSE(read_blob(key, blob_with(any_value(edges)).substr(0, 90), &why));

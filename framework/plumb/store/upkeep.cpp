@@ -61,13 +61,14 @@ Verified verify(Store& store) {
 Pruned prune(Store& store, const PruneLimits& limits) {
   require_index(store);
   store.index()->check();
+  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
+                       std::chrono::system_clock::now().time_since_epoch())
+                       .count();
+  store.index()->settle_recalled(limits.older ? now - limits.older->count() : 0);
   const auto rows = store.index()->rows();
   require_index(store);
   Pruned pruned;
   for (const IndexRow& row : rows) ++pruned.left, pruned.left_bytes += row.bytes;
-  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
-                       std::chrono::system_clock::now().time_since_epoch())
-                       .count();
   for (const IndexRow& row : rows) {
     const bool old = limits.older && row.used < now - limits.older->count(),
                over = limits.bytes && pruned.left_bytes > *limits.bytes;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::accept_poses {
 
 std::vector<std::uint32_t> common_points(const Segment& i, const Segment& j, const Pose& before,
                                          const Pose& after, const AgreementOptions& options) {
@@ -45,4 +45,4 @@ double disagreement(const Segment& i, const Segment& j, const std::vector<std::u
   return sum / static_cast<double>(points.size());
 }
 
-}  // namespace plumb
+}  // namespace plumb::accept_poses

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::accept_poses {
 
 struct AgreementOptions {
   double max_distance = 1;  ///< [m] a point without a nearer one counts as if it were so far off
@@ -24,4 +24,4 @@ std::vector<std::uint32_t> common_points(const Segment& i, const Segment& j,
 double disagreement(const Segment& i, const Segment& j, const std::vector<std::uint32_t>& points,
                     const Pose& T_j_i, const AgreementOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::accept_poses

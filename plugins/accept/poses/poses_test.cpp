@@ -4,8 +4,9 @@
 
 #include "agreement.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::accept_poses {
 namespace {
 
 using testing::HasSubstr;
@@ -186,8 +187,8 @@ struct Stage {
     for (const double metres : y) poses.T_world_segment.push_back(shifted(0, metres, 0));
     return poses;
   }
-  StepRun step() const {
-    StepRun run(*plumb_module());
+  StepUnderTest step() const {
+    StepUnderTest run(*plumb_module());
     run.with("before", before).with("after", after).with("edges", edges).each("segments", segments);
     return run;
   }
@@ -347,4 +348,4 @@ TEST(AcceptPoses, MultipliesTheMostDistanceByAScale) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::accept_poses

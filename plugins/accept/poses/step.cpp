@@ -1,10 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <array>
 #include <cstdio>
 
 #include "agreement.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::accept_poses {
 namespace {
 
 std::string rounded(double metres) {
@@ -69,10 +72,10 @@ struct AcceptPoses : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.before->size() != count || in.after->size() != count || in.edges->segments != count)
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.before->size()) + " and " + std::to_string(in.after->size()) +
-                  " poses, and edges of " + std::to_string(in.edges->segments) +
-                  " segments: wire what belongs to the same segments");
+      throw Error("got " + counted(count, "segments") + ", " + counted(in.before->size(), "poses") +
+                  " before and " + std::to_string(in.after->size()) + " after, and edges of " +
+                  counted(in.edges->segments, "segments") +
+                  ": wire what belongs to the same segments");
     const auto& edges = in.edges->list;
     std::vector<std::array<double, 2>> values(edges.size());
     const AgreementOptions options{params.max_distance, params.max_points};
@@ -116,6 +119,6 @@ struct AcceptPoses : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::accept_poses
 
-PLUMB_MODULE(plumb::AcceptPoses)
+PLUMB_MODULE(plumb::accept_poses::AcceptPoses)

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 namespace {
 
 constexpr std::size_t none = ~std::size_t{0};
@@ -29,8 +30,8 @@ Chained chained(const Poses& initial, const Edges& edges,
                 std::span<const Registration> registrations, const ChainOptions& options) {
   const std::size_t count = initial.size();
   if (edges.segments != count || edges.size() != registrations.size())
-    throw Error("there are " + std::to_string(count) + " poses, but the registrations are of " +
-                std::to_string(edges.segments) + " segments; wire poses of the same segments");
+    throw Error("got " + counted(count, "poses") + ", but the registrations are of " +
+                counted(edges.segments, "segments") + "; wire poses of the same segments");
   Chained result;
   std::vector<std::uint8_t> touched(count, 0);
   Matrix6d weak = Matrix6d::Zero();
@@ -76,4 +77,4 @@ Chained chained(const Poses& initial, const Edges& edges,
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::apply_chain

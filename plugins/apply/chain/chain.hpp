@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/registration.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 
 struct ChainOptions {
   double weak_translation_sigma = 0.5;    ///< [m] standard deviation of what was not registered
@@ -36,4 +36,4 @@ struct Chained {
 Chained chained(const Poses& initial, const Edges& edges,
                 std::span<const Registration> registrations, const ChainOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::apply_chain

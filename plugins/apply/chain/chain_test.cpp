@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "plumb/geometry/planar.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 namespace {
 
 double distance(const Pose& a, const Pose& b) {
@@ -21,8 +22,9 @@ struct Drive {
   explicit Drive(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs = {
                      {0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}) {
     for (int k = 0; k < 6; ++k) {
-      truth.T_world_segment.push_back(in_space({0.5 * k, 0.1 * k * k, 0.3 * k}));
-      odometry.T_world_segment.push_back(in_space({0.55 * k, 0.1 * k * k - 0.04 * k, 0.33 * k}));
+      truth.T_world_segment.push_back(planar::in_space({0.5 * k, 0.1 * k * k, 0.3 * k}));
+      odometry.T_world_segment.push_back(
+          planar::in_space({0.55 * k, 0.1 * k * k - 0.04 * k, 0.33 * k}));
     }
     edges.segments = 6;
     for (const auto& [i, j] : pairs) {
@@ -52,7 +54,7 @@ TEST(ApplyChain, BringsExactRegistrationsToTheTruth) {
 
 TEST(ApplyChain, StartsAtTheFirstInitialPose) {
   Drive drive;
-  const Pose home = in_space({7, 8, 2});
+  const Pose home = planar::in_space({7, 8, 2});
   for (Pose& pose : drive.odometry.T_world_segment) pose = home * pose;
   EXPECT_LT(distance(drive.chain().poses.T_world_segment[5], home * drive.truth.T_world_segment[5]),
             1e-12);
@@ -129,7 +131,7 @@ TEST(ApplyChain, CountsAndWarnsOnce) {
   Drive drive;
   drive.registrations[1].accepted = drive.registrations[2].accepted = false;
   TestContext context;
-  const auto metrics = StepRun(*plumb_module())
+  const auto metrics = StepUnderTest(*plumb_module())
                            .with("poses", drive.odometry)
                            .each("registrations", drive.registrations, drive.edges)
                            .run<Metrics>("metrics", context);
@@ -146,4 +148,4 @@ TEST(ApplyChain, CountsAndWarnsOnce) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_chain

@@ -1,10 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "chain.hpp"
-#include "plumb/data/registration.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/registration.hpp"
+#include "shared/selection/median.hpp"
 
-namespace plumb {
+namespace plumb::apply_chain {
 namespace {
 
 struct ApplyChain : WholeStep {
@@ -20,7 +23,9 @@ struct ApplyChain : WholeStep {
   using Params = ChainOptions;
 
   static void describe(Declaration<ApplyChain>& is) {
-    is.name("apply.chain").version(1).source("[Zhang2023] 2");
+    is.name("apply.chain")
+        .version(1)
+        .source("[Zhang2023] 2; what stands for a registration that failed is ours");
     is.summary("Composes the registrations of consecutive segments into a trajectory.");
     is.input("poses", &In::poses, "poses of the segments from odometry");
     is.input("registrations", &In::registrations,
@@ -46,7 +51,7 @@ struct ApplyChain : WholeStep {
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
-    Chained chain = chained(*in.poses, in.registrations.edges(), registrations, params);
+    Chained chain = chained(*in.poses, edges_of(in.registrations), registrations, params);
 
     Out out;
     out.metrics = metrics_of(registrations);
@@ -60,7 +65,7 @@ struct ApplyChain : WholeStep {
           " registrations are not accepted: the initial motion stands there, with little weight");
     }
     if (chain.interpolated)
-      context.count("segments without a registration, put between their neighbours",
+      context.count("segments without a registration, put between the neighbours",
                     chain.interpolated);
     if (chain.starts)
       context.count("places where the chain starts anew, after the initial motion", chain.starts);
@@ -72,26 +77,24 @@ struct ApplyChain : WholeStep {
  private:
   static Metrics metrics_of(const std::vector<Registration>& registrations) {
     double iterations = 0, mae = 0, overlap = 0;
-    std::vector<float> distances;
+    std::vector<double> distances;
     for (const Registration& r : registrations) {
       iterations += r.iterations;
       mae += static_cast<double>(r.mae);
       overlap += static_cast<double>(r.overlap);
-      distances.push_back(r.mae);
+      distances.push_back(static_cast<double>(r.mae));
     }
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    if (!distances.empty()) std::nth_element(distances.begin(), middle, distances.end());
     const double n = std::max<double>(1, static_cast<double>(registrations.size()));
     return Metrics()
         .add("registrations", static_cast<double>(registrations.size()), "")
         .add("iterations", iterations / n, "")
         .add("mae", mae / n, "m")
-        .add("mae_median", distances.empty() ? 0 : static_cast<double>(*middle), "m")
+        .add("mae_median", selection::median(std::move(distances)), "m")
         .add("overlap", overlap / n, "");
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_chain
 
-PLUMB_MODULE(plumb::ApplyChain)
+PLUMB_MODULE(plumb::apply_chain::ApplyChain)

@@ -1,16 +1,16 @@
 #include "correction.hpp"
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 namespace {
 
 void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
            const Poses& poses) {
   if (poses.size() != ranges.size())
-    throw Error("there are " + std::to_string(poses.size()) + " poses but " +
-                std::to_string(ranges.size()) +
-                " ranges; wire ranges and poses of the same segments");
+    throw Error("got " + counted(poses.size(), "poses") + " but " +
+                counted(ranges.size(), "ranges") + "; wire ranges and poses of the same segments");
   std::uint32_t next = 0;
   for (const auto& range : ranges) {
     if (range.first != next || range.end <= range.first)
@@ -19,7 +19,7 @@ void check(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
     next = range.end;
   }
   if (next != trajectory.size())
-    throw Error("the ranges cover " + std::to_string(next) + " frames, the trajectory has " +
+    throw Error("the ranges cover " + counted(next, "frames") + ", the trajectory has " +
                 std::to_string(trajectory.size()) +
                 "; wire the ranges that the trajectory was cut into");
 }
@@ -62,4 +62,4 @@ Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::apply_correction

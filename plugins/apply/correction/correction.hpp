@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 
 /// The trajectory after each segment moved from `ranges[s].T_world_segment` to
 /// `poses.T_world_segment[s]`.
@@ -21,4 +21,4 @@ namespace plumb {
 Trajectory corrected(const Trajectory& trajectory, const std::vector<FrameRange>& ranges,
                      const Poses& poses, bool blend);
 
-}  // namespace plumb
+}  // namespace plumb::apply_correction

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "plumb/data/error.hpp"
-#include "plumb/data/range.hpp"
+#include "plumb/slam/range.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 namespace {
 
 Trajectory drive(std::size_t frames) {
@@ -102,4 +102,4 @@ TEST(Correction, RefusesPosesAndRangesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_correction

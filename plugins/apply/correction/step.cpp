@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "correction.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::apply_correction {
 namespace {
 
 struct ApplyCorrection : WholeStep {
@@ -41,6 +43,6 @@ struct ApplyCorrection : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::apply_correction
 
-PLUMB_MODULE(plumb::ApplyCorrection)
+PLUMB_MODULE(plumb::apply_correction::ApplyCorrection)

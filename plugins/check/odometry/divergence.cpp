@@ -8,7 +8,9 @@
 #include <numeric>
 #include <optional>
 
-namespace plumb {
+#include "shared/selection/median.hpp"
+
+namespace plumb::check_odometry {
 namespace {
 
 struct Pair {
@@ -60,8 +62,7 @@ class Checker {
     std::vector<double> times;
     for (std::size_t k = 1; k < odometry.size(); ++k)
       times.push_back(odometry.stamps[k] - odometry.stamps[k - 1]);
-    std::ranges::sort(times);
-    if (!times.empty()) usual_time_ = times[times.size() / 2];
+    usual_time_ = selection::median(std::move(times));
     for (std::uint32_t a = 0, b = 1; b < odometry.size(); ++b)
       if (path[b] - path[a] >= options.min_path_length || b - a >= options.max_frames ||
           b + 1 == odometry.size()) {
@@ -284,4 +285,4 @@ std::string kind_of(const Divergence& d) {
   return text;
 }
 
-}  // namespace plumb
+}  // namespace plumb::check_odometry

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
-#include "plumb/data/trajectory.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/trajectory.hpp"
 #include "scan_pair.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 
 struct DivergenceOptions {
   ScanOptions scans;
@@ -51,4 +51,4 @@ CheckedOdometry check_odometry(const Trajectory& odometry,
 /// divergence looks like.
 std::string kind_of(const Divergence& divergence);
 
-}  // namespace plumb
+}  // namespace plumb::check_odometry

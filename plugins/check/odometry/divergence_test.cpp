@@ -4,8 +4,9 @@
 
 #include "divergence_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 CheckedOdometry check(const Trajectory& odometry, const Drive& of = drive()) {
@@ -215,8 +216,8 @@ TEST(Divergence, IsNamedByWhatItLooksLike) {
 // ---- the step
 // ---------------------------------------------------------------------------------------------------------------
 
-StepRun checking(const std::vector<Frame>& frames, const Trajectory& odometry) {
-  StepRun step(*plumb_module());
+StepUnderTest checking(const std::vector<Frame>& frames, const Trajectory& odometry) {
+  StepUnderTest step(*plumb_module());
   step.each("frames", frames).with("trajectory", odometry);
   return step;
 }
@@ -302,9 +303,9 @@ TEST(CheckOdometry, RefusesATrajectoryOfOtherFrames) {
   } catch (const Error& e) {
     EXPECT_STREQ(
         e.what(),
-        "there are 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
+        "got 30 frames but 36 poses in the trajectory; wire the trajectory of these frames");
   }
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::check_odometry

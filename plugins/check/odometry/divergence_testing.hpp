@@ -5,9 +5,9 @@
 #include <random>
 
 #include "divergence.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 
 inline constexpr double degree = M_PI / 180;
 
@@ -125,4 +125,4 @@ inline Pose scaled(const Pose& motion, double factor) {
   return {exp_rotation(factor * log_rotation(motion.rotation)), factor * motion.translation};
 }
 
-}  // namespace plumb
+}  // namespace plumb::check_odometry

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/data/voxel_means.hpp"
-#include "plumb/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
+#include "shared/selection/evenly.hpp"
+#include "shared/thinning/voxel_means.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 Cloud thinned(const Cloud& scan, double voxel_size) {
-  VoxelMeans means(voxel_size);
+  thinning::VoxelMeans means(voxel_size);
   Cloud points;
   points.x = scan.x, points.y = scan.y, points.z = scan.z;
   means.add(points, {}, {});
@@ -115,10 +116,10 @@ Pose ScanTarget::aligned(const std::vector<Eigen::Vector3f>& source, Pose T) {
 
 std::vector<Eigen::Vector3f> asked_points(const Cloud& scan, const ScanOptions& options) {
   const Cloud cloud = thinned(scan, options.voxel_size);
-  const std::size_t n = std::min<std::size_t>(cloud.size(), options.max_points);
   std::vector<Eigen::Vector3f> points;
-  for (std::size_t k = 0; k < n; ++k) points.push_back(cloud.point(k * cloud.size() / n));
+  for (const auto k : selection::evenly(cloud.size(), options.max_points))
+    points.push_back(cloud.point(k));
   return points;
 }
 
-}  // namespace plumb
+}  // namespace plumb::check_odometry

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 
 struct ScanOptions {
   double voxel_size = 0.4;  ///< [m] to which scans are thinned
@@ -42,4 +42,4 @@ class ScanTarget {
 /// Points of a scan to ask with: thinned and evenly chosen.
 std::vector<Eigen::Vector3f> asked_points(const Cloud& scan, const ScanOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::check_odometry

@@ -4,7 +4,7 @@
 
 #include "divergence_testing.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 TEST(ScanTarget, FitsATrueMotionBestOfAll) {
@@ -43,4 +43,4 @@ TEST(ScanTarget, GivesTheFarthestMisfitWhereThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::check_odometry

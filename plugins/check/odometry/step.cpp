@@ -1,9 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <cstdio>
 
 #include "divergence.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::check_odometry {
 namespace {
 
 std::string seconds(double stamp) {
@@ -91,9 +94,9 @@ struct CheckOdometry : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     if (in.frames.size() != in.trajectory->size())
-      throw Error("there are " + std::to_string(in.frames.size()) + " frames but " +
-                  std::to_string(in.trajectory->size()) +
-                  " poses in the trajectory; wire the trajectory of these frames");
+      throw Error("got " + counted(in.frames.size(), "frames") + " but " +
+                  counted(in.trajectory->size(), "poses") +
+                  " in the trajectory; wire the trajectory of these frames");
     const DivergenceOptions options{{params.voxel_size, params.max_distance, params.max_points},
                                     params.min_path_length,
                                     params.max_frames,
@@ -121,6 +124,6 @@ struct CheckOdometry : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::check_odometry
 
-PLUMB_MODULE(plumb::CheckOdometry)
+PLUMB_MODULE(plumb::check_odometry::CheckOdometry)

@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/registration.hpp"
+#include "shared/selection/median.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 Vector6d expected_sigma(const Pose& motion, const MotionNoise& noise) {
   const double path = motion.translation.norm();
@@ -53,7 +47,8 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
     std::vector<double> ratios;
     for (std::size_t k = 0; k < n; ++k)
       ratios.push_back(std::abs(differences[k][axis]) / result.motions[k].sigma[axis]);
-    result.factor[axis] = std::clamp(normal * median(ratios), 1 / max_factor, max_factor);
+    result.factor[axis] =
+        std::clamp(normal * selection::median(ratios), 1 / max_factor, max_factor);
   }
   for (std::uint32_t k = 0; k < n; ++k) {
     Vector6d& sigma = result.motions[k].sigma;
@@ -78,4 +73,4 @@ Constraints constraints_from(const std::vector<Motion6>& motions) {
   return constraints;
 }
 
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry

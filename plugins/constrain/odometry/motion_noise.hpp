@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 
 /// Standard deviations of a motion: what it has at rest, and what grows with the path and the turn.
 /// Errors of a step are taken as proportional to the step, not to its root: the errors of lidar
@@ -17,6 +17,31 @@ struct MotionNoise {
   double rotation_per_turn = 0.02;         ///< [rad/rad]
   double min_translation_sigma = 0.02;     ///< [m]
   double min_rotation_sigma = 0.05 * deg;  ///< [rad]
+
+  /// As parameters of a step.
+  template <class Declare>
+  static void describe(Declare& is) {
+    is.param("translation_per_metre", &MotionNoise::translation_per_metre)
+        .unit("%")
+        .range(1e-6, 10)
+        .doc("standard deviation of the translation, as a share of its length");
+    is.param("rotation_per_metre", &MotionNoise::rotation_per_metre)
+        .unit("rad/m")
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation for each metre of translation");
+    is.param("rotation_per_turn", &MotionNoise::rotation_per_turn)
+        .unit("%")
+        .range(0, 10)
+        .doc("standard deviation of the rotation, as a share of the rotation");
+    is.param("min_translation_sigma", &MotionNoise::min_translation_sigma)
+        .unit("m")
+        .range(1e-6, 1e3)
+        .doc("standard deviation of the translation at rest");
+    is.param("min_rotation_sigma", &MotionNoise::min_rotation_sigma)
+        .unit("rad")
+        .range(1e-6 * deg, 360 * deg)
+        .doc("standard deviation of the rotation at rest");
+  }
 };
 
 /// The motion from segment k to k + 1 with the standard deviations of x, y, z [m] and of the
@@ -45,4 +70,4 @@ OdometryNoise odometry_noise(const Poses& odometry, const Poses* registered,
 /// Constraints of a pose graph from these.
 Constraints constraints_from(const std::vector<Motion6>& motions);
 
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry

@@ -6,8 +6,9 @@
 
 #include "motion_noise.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 namespace {
 
 using testing::ElementsAre;
@@ -170,8 +171,8 @@ Poses middles() {
     poses.T_world_segment.push_back(odometry().T_world_frame[range.first + 1]);
   return poses;
 }
-StepRun wired() {
-  StepRun step(*plumb_module());
+StepUnderTest wired() {
+  StepUnderTest step(*plumb_module());
   step.with("trajectory", odometry()).each("ranges", ranges());
   return step;
 }
@@ -185,7 +186,7 @@ std::string refusal(const Run& run) {
   return "";
 }
 /// Median deviation of x and of yaw that the step used.
-std::pair<double, double> sigmas(StepRun step) {
+std::pair<double, double> sigmas(StepUnderTest step) {
   TestContext context;
   const auto numbers = step.run<Metrics>("metrics", context).numbers;
   return {numbers[0].value, numbers[5].value};
@@ -225,7 +226,7 @@ TEST(ConstrainOdometry, CountsMotionsThatContradictTheRegistrations) {
   TestContext context;
   const auto metrics = wired().with("registered", registered).run<Metrics>("metrics", context);
   EXPECT_EQ(metrics.numbers[6].value, 1);
-  EXPECT_EQ(context.counts["motions of the odometry that contradict the registrations"], 1u);
+  EXPECT_EQ(context.counts["motions of the odometry contradicted by the registrations"], 1u);
   EXPECT_NEAR(sigmas(wired().with("registered", middles())).first, std::hypot(0.02, 0.09) / 10,
               1e-9);
 }
@@ -285,4 +286,4 @@ TEST(ConstrainOdometry, RefusesAScaleWithoutAPositiveNumber) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry

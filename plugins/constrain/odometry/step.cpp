@@ -1,9 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "motion_noise.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::constrain_odometry {
 namespace {
 
 struct ConstrainOdometry : WholeStep {
@@ -17,7 +20,8 @@ struct ConstrainOdometry : WholeStep {
     Constraints constraints;
     Metrics metrics;
   };
-  struct Params : MotionNoise {
+  struct Params {
+    MotionNoise noise;
     double max_factor = 10;
     double max_deviation = 6;
   };
@@ -40,26 +44,7 @@ struct ConstrainOdometry : WholeStep {
     is.output("metrics", &Out::metrics,
               "median standard deviations that were used, and how many motions contradict the "
               "registrations");
-    is.param("translation_per_metre", as_own(&MotionNoise::translation_per_metre))
-        .unit("%")
-        .range(1e-6, 10)
-        .doc("standard deviation of the translation, as a share of its length");
-    is.param("rotation_per_metre", as_own(&MotionNoise::rotation_per_metre))
-        .unit("rad/m")
-        .range(1e-6 * deg, 360 * deg)
-        .doc("standard deviation of the rotation for each metre of translation");
-    is.param("rotation_per_turn", as_own(&MotionNoise::rotation_per_turn))
-        .unit("%")
-        .range(0, 10)
-        .doc("standard deviation of the rotation, as a share of the rotation");
-    is.param("min_translation_sigma", as_own(&MotionNoise::min_translation_sigma))
-        .unit("m")
-        .range(1e-6, 1e3)
-        .doc("standard deviation of the translation at rest");
-    is.param("min_rotation_sigma", as_own(&MotionNoise::min_rotation_sigma))
-        .unit("rad")
-        .range(1e-6 * deg, 360 * deg)
-        .doc("standard deviation of the rotation at rest");
+    is.params(&Params::noise);
     is.param("max_factor", &Params::max_factor)
         .range(1, 1e6)
         .doc(
@@ -75,11 +60,11 @@ struct ConstrainOdometry : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const Poses odometry = middle_poses(in);
     if (in.registered && in.registered->size() != odometry.size())
-      throw Error("there are " + std::to_string(odometry.size()) + " segments and " +
-                  std::to_string(in.registered->size()) +
-                  " registered poses: wire ranges and poses of the same segments");
-    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr, params,
-                                      params.max_factor, params.max_deviation);
+      throw Error("got " + counted(odometry.size(), "segments") + " and " +
+                  counted(in.registered->size(), "registered poses") +
+                  ": wire ranges and poses of the same segments");
+    const auto noise = odometry_noise(odometry, in.registered ? &*in.registered : nullptr,
+                                      params.noise, params.max_factor, params.max_deviation);
     Out out;
     out.constraints = constraints_from(noise.motions);
     const char* axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -91,7 +76,7 @@ struct ConstrainOdometry : WholeStep {
                       sigmas.empty() ? 0 : sigmas[sigmas.size() / 2], axis < 3 ? "m" : "rad");
     }
     out.metrics.add("outliers", static_cast<double>(noise.outliers.size()), "");
-    context.count("motions of the odometry that contradict the registrations",
+    context.count("motions of the odometry contradicted by the registrations",
                   noise.outliers.size());
     return out;
   }
@@ -111,14 +96,9 @@ struct ConstrainOdometry : WholeStep {
     }
     return poses;
   }
-  /// Params inherits its members, which are named by the base.
-  template <class M>
-  static M Params::*as_own(M MotionNoise::*member) {
-    return member;
-  }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constrain_odometry
 
-PLUMB_MODULE(plumb::ConstrainOdometry)
+PLUMB_MODULE(plumb::constrain_odometry::ConstrainOdometry)

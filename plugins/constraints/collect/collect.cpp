@@ -1,6 +1,6 @@
 #include "collect.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 
 Constraints collected(const Edges& edges, std::span<const Registration> registrations,
                       double inflate) {
@@ -17,4 +17,4 @@ Constraints collected(const Edges& edges, std::span<const Registration> registra
   return constraints;
 }
 
-}  // namespace plumb
+}  // namespace plumb::constraints_collect

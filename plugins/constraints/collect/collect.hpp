@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/registration.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 
 /// One constraint for each accepted registration that knows something (its information is not
 /// zero), with the standard deviations multiplied by `inflate`. Planar when there is one and none
@@ -14,4 +14,4 @@ namespace plumb {
 Constraints collected(const Edges& edges, std::span<const Registration> registrations,
                       double inflate);
 
-}  // namespace plumb
+}  // namespace plumb::constraints_collect

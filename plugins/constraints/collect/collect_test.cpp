@@ -1,10 +1,13 @@
 #include "collect.hpp"
 
-#include "plumb/geometry/planar.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 namespace {
+
+using planar::PlanarPose;
 
 Registration registration(const PlanarPose& motion, bool accepted) {
   Registration r;
@@ -60,14 +63,14 @@ TEST(CollectConstraints, AreNotPlanarWhereAMotionLeavesThePlane) {
 
 TEST(CollectConstraints, CountWhatTheyTakeAndLeave) {
   TestContext context;
-  StepRun(*plumb_module())
+  StepUnderTest(*plumb_module())
       .each("registrations",
             std::vector{registration({1, 0, 0}, true), registration({1, 0, 0}, false)},
-            {3, {{0, 1}, {1, 2}}})
+            Edges{3, {{0, 1}, {1, 2}}})
       .run<Constraints>("constraints", context);
   EXPECT_EQ(context.counts["registrations accepted"], 1u);
   EXPECT_EQ(context.counts["registrations not accepted and left out"], 1u);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constraints_collect

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "collect.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::constraints_collect {
 namespace {
 
 struct CollectConstraints : WholeStep {
@@ -29,7 +31,7 @@ struct CollectConstraints : WholeStep {
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
-    Out out{collected(in.registrations.edges(), registrations, params.inflate)};
+    Out out{collected(edges_of(in.registrations), registrations, params.inflate)};
     context.count("registrations accepted", out.constraints.relative.size());
     context.count("registrations not accepted and left out",
                   registrations.size() - out.constraints.relative.size());
@@ -38,6 +40,6 @@ struct CollectConstraints : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::constraints_collect
 
-PLUMB_MODULE(plumb::CollectConstraints)
+PLUMB_MODULE(plumb::constraints_collect::CollectConstraints)

@@ -7,7 +7,7 @@
 #include "plumb/plugin/context.hpp"
 #include "solid_grid.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 constexpr double least_area = 0.001;  // squared, in cells^4: below it a triple counts as a line
@@ -149,4 +149,4 @@ std::optional<std::vector<float>> esf(const Cloud& cloud, std::uint32_t samples,
   return histograms.normalised();
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_esf

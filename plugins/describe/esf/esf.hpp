@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 
 inline constexpr std::size_t esf_bins = 64;  ///< of each of the ten histograms
 inline constexpr std::size_t esf_size = 640;
@@ -26,4 +26,4 @@ inline constexpr std::size_t esf_size = 640;
 std::optional<std::vector<float>> esf(const Cloud& cloud, std::uint32_t samples,
                                       std::uint64_t seed);
 
-}  // namespace plumb
+}  // namespace plumb::describe_esf

@@ -7,14 +7,14 @@
 #include <numeric>
 #include <thread>
 
-#include "plumb/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 #include "solid_grid.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
 #endif
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 /// Ground, a wall and a ball.
@@ -177,4 +177,4 @@ TEST(Esf, HasTheMeanOfPclWithinTheNoiseOfSampling) {
 #endif
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_esf

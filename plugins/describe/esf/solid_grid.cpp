@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace plumb {
+namespace plumb::describe_esf {
 
 SolidGrid::SolidGrid(const std::vector<Eigen::Vector3f>& points) {
   for (const auto& point : points) {
@@ -56,4 +56,4 @@ Line SolidGrid::trace(const Eigen::Vector3i& from, const Eigen::Vector3i& to) co
   return line;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_esf

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace plumb {
+namespace plumb::describe_esf {
 
 /// A straight line of cells: how many there are, and how many of them are solid.
 struct Line {
@@ -35,4 +35,4 @@ class SolidGrid {
   std::array<std::uint64_t, side * side> bits_{};
 };
 
-}  // namespace plumb
+}  // namespace plumb::describe_esf

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "esf.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 struct DescribeEsf : SegmentStep {
@@ -42,6 +44,6 @@ struct DescribeEsf : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_esf
 
-PLUMB_MODULE(plumb::DescribeEsf)
+PLUMB_MODULE(plumb::describe_esf::DescribeEsf)

@@ -1,6 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::describe_esf {
 namespace {
 
 Segment cube() {
@@ -14,7 +16,7 @@ Segment cube() {
 TEST(DescribeEsfStep, TakesItsSeedFromTheContext) {
   const auto described = [](std::uint64_t seed) {
     TestContext context(seed);
-    return StepRun(*plumb_module())
+    return StepUnderTest(*plumb_module())
         .with("segment", cube())
         .set("samples", std::int64_t{2000})
         .run<Descriptor>("descriptor", context)
@@ -27,11 +29,12 @@ TEST(DescribeEsfStep, TakesItsSeedFromTheContext) {
 
 TEST(DescribeEsfStep, SaysWhereASegmentHasNoShape) {
   TestContext context;
-  const auto descriptor =
-      StepRun(*plumb_module()).with("segment", Segment()).run<Descriptor>("descriptor", context);
+  const auto descriptor = StepUnderTest(*plumb_module())
+                              .with("segment", Segment())
+                              .run<Descriptor>("descriptor", context);
   EXPECT_EQ(descriptor.values, std::vector<float>(640, 0.0f));
   ASSERT_EQ(context.warnings.size(), 1u);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_esf

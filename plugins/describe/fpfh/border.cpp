@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 constexpr int sectors = 32;  // 8 a quadrant, each at most 14.1 degrees wide
@@ -63,4 +63,4 @@ double largest_gap(const Oriented& point, const Candidates& candidates, float sq
   return widest;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

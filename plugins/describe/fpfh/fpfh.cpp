@@ -6,7 +6,7 @@
 #include "border.hpp"
 #include "pair_counts.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 constexpr std::size_t block_points = 1024;  // fixed, so that blocks do not follow the threads
@@ -168,4 +168,4 @@ Fpfh fpfh(const Cloud& cloud, const std::vector<std::uint32_t>& keys, const Fpfh
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

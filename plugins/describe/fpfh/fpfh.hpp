@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "plumb/data/values.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/values.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 struct FpfhOptions {
   double radius = 2.5;                          ///< [m] of a neighbourhood
@@ -31,4 +31,4 @@ struct Fpfh {
 Fpfh fpfh(const Cloud& cloud, const std::vector<std::uint32_t>& keys, const FpfhOptions& options,
           Context& context);
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -4,33 +4,22 @@
 
 #include <numbers>
 #include <numeric>
-#include <thread>
 
 #include "border.hpp"
 #include "key_points.hpp"
 #include "pair_counts.hpp"
-#include "plumb/geometry/pose.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/geometry/pose.hpp"
+#include "plumb/slam/step.hpp"
 #include "scene_for_test.hpp"
+#include "shared/parallel/loop_testing.hpp"
 
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
 #endif
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
-
-/// Runs the bodies in four threads, each from the last to the first.
-struct ThreadedContext : TestContext {
-  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
-    std::vector<std::jthread> threads;
-    for (std::size_t t = 0; t < 4; ++t)
-      threads.emplace_back([&body, n, t] {
-        for (std::size_t k = n; k-- > 0;)
-          if (k % 4 == t) body(k);
-      });
-  }
-};
 
 Oriented point_of(const Support& s, std::uint32_t k) {
   return {s.x[k], s.y[k], s.z[k], s.nx[k], s.ny[k], s.nz[k]};
@@ -252,7 +241,7 @@ TEST(Fpfh, IsTheSameForOneAndForFourThreads) {
   const Cloud cloud = street_corner(20000, 6);
   const auto keys = key_points(cloud, 0.5);
   TestContext alone;
-  ThreadedContext together;
+  parallel::ThreadedContext together;
   const auto one = fpfh(cloud, keys, within(1), alone),
              four = fpfh(cloud, keys, within(1), together);
   EXPECT_EQ(one.features.vectors, four.features.vectors);
@@ -321,4 +310,4 @@ TEST(Fpfh, AgreesWithPcl) {
 #endif
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

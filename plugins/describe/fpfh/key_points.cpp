@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 struct InCell {
@@ -45,4 +45,4 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 /// Of each cubic cell of edge `voxel_size` [m] the point nearest to the mean of the cell's points,
 /// in ascending order of index. Points without a finite position or without a normal do not count.
 /// Of two that are equally near the one with the lower index is taken.
 std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size);
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -8,7 +8,7 @@
 #include <immintrin.h>
 #endif
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 PairCounts count_pairs_plainly(const Oriented& point, const Candidates& candidates,
                                float squared_radius) {
@@ -185,4 +185,4 @@ PairCounts count_pairs(const Oriented& point, const Candidates& candidates, floa
 }
 #endif
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 inline constexpr std::size_t fpfh_bins = 11;  ///< of each of the three angles
 
@@ -35,4 +35,4 @@ PairCounts count_pairs(const Oriented& point, const Candidates& candidates, floa
 PairCounts count_pairs_plainly(const Oriented& point, const Candidates& candidates,
                                float squared_radius);
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "plumb/data/cloud.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 inline Cloud street_corner(std::size_t count, std::uint64_t seed, float noise = 0.02f) {
   Random random(seed);
@@ -44,4 +44,4 @@ inline Cloud street_corner(std::size_t count, std::uint64_t seed, float noise = 
   return cloud;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

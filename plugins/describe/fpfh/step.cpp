@@ -1,10 +1,12 @@
 
+#include "plumb/slam/step.hpp"
+
 #include "fpfh.hpp"
 #include "key_points.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 struct DescribeFpfh : SegmentStep {
@@ -27,7 +29,7 @@ struct DescribeFpfh : SegmentStep {
     is.name("describe.fpfh").version(1);
     is.summary(
         "Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
-    is.source("[Rusu2009] II; [Tang2024] 2.3.2");
+    is.source("[Rusu2009] II; [Tang2024] 2.3.2; the keypoints are ours");
     is.input("segment", &In::segment, "a cloud with normals");
     is.scale(&In::scale);
     is.output("features", &Out::features, "keypoints with their histograms and border marks");
@@ -51,7 +53,7 @@ struct DescribeFpfh : SegmentStep {
         .doc(
             "a keypoint is at the border if its neighbours leave a sector free that is wider than "
             "this")
-        .source("[Xiong2018]");
+        .source("PCL, BoundaryEstimation");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -69,6 +71,6 @@ struct DescribeFpfh : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh
 
-PLUMB_MODULE(plumb::DescribeFpfh)
+PLUMB_MODULE(plumb::describe_fpfh::DescribeFpfh)

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/step_testing.hpp"
 #include "scene_for_test.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 Segment segment_of(Cloud cloud) {
@@ -14,7 +16,7 @@ TEST(DescribeFpfhStep, GivesKeyPointsWithHistogramsNormalsAndBorderMarks) {
   Cloud cloud = street_corner(4000, 1);
   cloud.add({100, 100, 100});
   cloud.nx.push_back(0), cloud.ny.push_back(0), cloud.nz.push_back(1);
-  const auto features = StepRun(*plumb_module())
+  const auto features = StepUnderTest(*plumb_module())
                             .with("segment", segment_of(cloud))
                             .set("radius", 1.5)
                             .run<Features>("features", context);
@@ -37,7 +39,9 @@ TEST(DescribeFpfhStep, RefusesASegmentWithoutNormalsAndNamesTheCure) {
   for (int k = 0; k < 10; ++k) cloud.add({static_cast<float>(k), 0, 0});
   TestContext context;
   try {
-    StepRun(*plumb_module()).with("segment", segment_of(cloud)).run<Features>("features", context);
+    StepUnderTest(*plumb_module())
+        .with("segment", segment_of(cloud))
+        .run<Features>("features", context);
     FAIL() << "not refused";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("estimate.normals"), std::string::npos);
@@ -46,10 +50,11 @@ TEST(DescribeFpfhStep, RefusesASegmentWithoutNormalsAndNamesTheCure) {
 
 TEST(DescribeFpfhStep, GivesNoFeaturesForAnEmptySegment) {
   TestContext context;
-  const auto features =
-      StepRun(*plumb_module()).with("segment", segment_of({})).run<Features>("features", context);
+  const auto features = StepUnderTest(*plumb_module())
+                            .with("segment", segment_of({}))
+                            .run<Features>("features", context);
   EXPECT_EQ(features.size(), 0u);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

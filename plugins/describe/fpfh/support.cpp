@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 namespace {
 
 constexpr std::int64_t reach = 2;  // cells a neighbour may be away: their edge is half the radius
@@ -127,4 +127,4 @@ const Candidates& CandidateFinder::around(const Support::Cell& cell) {
   return to;
 }
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::describe_fpfh {
 
 /// The points that may lie within the radius of one cell's points, side by side, filled up to a
 /// multiple of `lanes` with points at infinity.
@@ -60,4 +60,4 @@ class CandidateFinder {
   Candidates candidates_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::describe_fpfh

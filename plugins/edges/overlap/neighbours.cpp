@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace plumb {
+namespace plumb::edges_overlap {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -78,4 +78,4 @@ Neighbourhood neighbours(std::size_t count,
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/graph.hpp"
 #include "voxels.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 
 struct OverlapOptions {
   double resolution = 1;  ///< [m]
@@ -38,4 +38,4 @@ Neighbourhood neighbours(std::size_t count,
                          const std::function<std::shared_ptr<const Segment>(std::size_t)>& segment,
                          const Poses& poses, const OverlapOptions& options, Context& context);
 
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

@@ -6,8 +6,9 @@
 
 #include "neighbours.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 namespace {
 
 Cloud random_cloud(std::size_t count, const Eigen::Vector3f& half, std::uint64_t seed) {
@@ -135,7 +136,7 @@ struct OutAndBack {
     }
   }
   Edges run(TestContext& context, std::optional<double> threshold = {}) const {
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.each("segments", segments).with("poses", poses).set("resolution", 2.0);
     if (threshold) step.set("threshold", *threshold);
     return step.run<Edges>("edges", context);
@@ -193,7 +194,7 @@ TEST(OverlapEdges, RefuseFewerThanTwoSegmentsForThereIsNothingToRegister) {
     TestContext context;
     Poses poses;
     poses.T_world_segment.resize(count);
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.each("segments", std::vector<Segment>(count)).with("poses", poses);
     EXPECT_THROW(step.run<Edges>("edges", context), Error);
   }
@@ -203,7 +204,7 @@ TEST(OverlapEdges, JoinEmptySegmentsThatFollowEachOtherAndSaySo) {
   TestContext context;
   Poses three;
   three.T_world_segment.resize(3);
-  EXPECT_EQ(StepRun(*plumb_module())
+  EXPECT_EQ(StepUnderTest(*plumb_module())
                 .each("segments", std::vector<Segment>(3))
                 .with("poses", three)
                 .run<Edges>("edges", context)
@@ -214,7 +215,7 @@ TEST(OverlapEdges, JoinEmptySegmentsThatFollowEachOtherAndSaySo) {
 
 TEST(OverlapEdges, RefusePosesOfOtherSegments) {
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.each("segments", std::vector<Segment>(3)).with("poses", Poses());
   EXPECT_THROW(step.run<Edges>("edges", context), Error);
 }
@@ -227,4 +228,4 @@ TEST(OverlapEdges, RefuseSegmentsThatLieTooFarApartForTheirVoxels) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

@@ -1,7 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "neighbours.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 namespace {
 
 struct OverlapEdges : WholeStep {
@@ -44,13 +47,13 @@ struct OverlapEdges : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (count < 2)
-      throw Error("there is " + std::to_string(count) +
-                  " segment, so there is nothing to register: cut shorter segments "
+      throw Error("got " + counted(count, "segments") +
+                  ", so there is nothing to register: cut shorter segments "
                   "(segment.by_count: frames, "
                   "segment.by_distance: length)");
     if (in.poses->size() != count)
-      throw Error("there are " + std::to_string(count) + " segments and " +
-                  std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
+      throw Error("got " + counted(count, "segments") + " and " +
+                  counted(in.poses->size(), "poses") + ": wire poses of the same segments");
     auto found = neighbours(
         count, [&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses, params,
         context);
@@ -64,6 +67,6 @@ struct OverlapEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_overlap
 
-PLUMB_MODULE(plumb::OverlapEdges)
+PLUMB_MODULE(plumb::edges_overlap::OverlapEdges)

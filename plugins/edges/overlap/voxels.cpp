@@ -8,7 +8,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/short_number.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 namespace {
 
 constexpr int most_bits = 21;
@@ -135,4 +135,4 @@ double overlap(const Voxels& a, const Voxels& b, double least) {
   return static_cast<double>(points) / both;
 }
 
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

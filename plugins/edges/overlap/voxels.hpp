@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::edges_overlap {
 
 /// Cubic voxels of edge `size` [m] in world coordinates: voxel (0, 0, 0) begins at `origin` [m], a
 /// whole multiple of `size`.
@@ -44,7 +44,8 @@ Voxels voxels_of(const Cloud& cloud, const Pose& T_world_segment, const Lattice&
 
 /// Points of both clouds in voxels that hold points of both / points of both, 0 to 1. Time goes
 /// with the number of voxels. Where the coarse voxels show that the overlap cannot be above
-/// `least`, 0 comes back without a look at the fine ones. Source: [Tang2024] 2.3.1.
+/// `least`, 0 comes back without a look at the fine ones. Source: [Tang2024] 2.3.1; that both
+/// clouds share one lattice is ours.
 double overlap(const Voxels& a, const Voxels& b, double least = 0);
 
-}  // namespace plumb
+}  // namespace plumb::edges_overlap

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plumb {
+namespace plumb::edges_select {
 namespace {
 
 struct Partner {
@@ -91,4 +91,4 @@ Edges select_edges(const Edges& edges, const std::vector<Eigen::Vector3d>& posit
   return selected;
 }
 
-}  // namespace plumb
+}  // namespace plumb::edges_select

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::edges_select {
 
 struct SelectOptions {
   std::optional<double> max_path_separation;  ///< [m] path between the two ends, at most; none: any
@@ -28,4 +28,4 @@ struct SelectOptions {
 Edges select_edges(const Edges& edges, const std::vector<Eigen::Vector3d>& positions,
                    const SelectOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::edges_select

@@ -6,8 +6,9 @@
 #include <set>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::edges_select {
 namespace {
 
 using testing::ElementsAre;
@@ -200,7 +201,7 @@ TEST(SelectEdges, AreNoneOfNoneAndOfNoSegments) {
 TEST(SelectEdgesStep, KeepsWhatTheKernelKeepsAndCountsTheRest) {
   const Edges edges = all_within(30, 10);
   TestContext context;
-  const auto selected = StepRun(*plumb_module())
+  const auto selected = StepUnderTest(*plumb_module())
                             .with("edges", edges)
                             .with("poses", poses_at(in_a_line(30)))
                             .set("max_along", std::int64_t(1))
@@ -211,7 +212,7 @@ TEST(SelectEdgesStep, KeepsWhatTheKernelKeepsAndCountsTheRest) {
 
 TEST(SelectEdgesStep, RefusesPosesOfOtherSegments) {
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("edges", all_within(30, 10)).with("poses", poses_at(in_a_line(29)));
   try {
     step.run<Edges>("edges", context);
@@ -225,7 +226,7 @@ TEST(SelectEdgesStep, RefusesPosesOfOtherSegments) {
 TEST(SelectEdgesStep, MultipliesThePathByAScaleAndLeavesNoneAlone) {
   const auto kept = [](std::optional<double> path, double scale) {
     TestContext context;
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.with("edges", all_within(30, 10)).with("poses", poses_at(in_a_line(30)));
     if (path) step.set("max_path_separation", *path);
     if (scale != 1) step.with("scale", Metrics().add("scale", scale, ""));
@@ -238,4 +239,4 @@ TEST(SelectEdgesStep, MultipliesThePathByAScaleAndLeavesNoneAlone) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_select

@@ -1,7 +1,10 @@
+#include "plumb/slam/step.hpp"
+
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "select.hpp"
 
-namespace plumb {
+namespace plumb::edges_select {
 namespace {
 
 struct SelectEdges : WholeStep {
@@ -46,9 +49,9 @@ struct SelectEdges : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     if (in.edges->segments != in.poses->size())
-      throw Error("the edges are of " + std::to_string(in.edges->segments) +
-                  " segments and there are " + std::to_string(in.poses->size()) +
-                  " poses: wire edges and poses of the same segments");
+      throw Error("the edges are of " + counted(in.edges->segments, "segments") + ", but got " +
+                  counted(in.poses->size(), "poses") +
+                  ": wire edges and poses of the same segments");
     std::vector<Eigen::Vector3d> positions;
     for (const Pose& pose : in.poses->T_world_segment) positions.push_back(pose.translation);
     Out out{select_edges(*in.edges, positions, params)};
@@ -58,6 +61,6 @@ struct SelectEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_select
 
-PLUMB_MODULE(plumb::SelectEdges)
+PLUMB_MODULE(plumb::edges_select::SelectEdges)

@@ -1,6 +1,6 @@
 #include "sequential.hpp"
 
-namespace plumb {
+namespace plumb::edges_sequential {
 
 Edges sequential_edges(const std::vector<Eigen::Vector3d>& positions) {
   Edges edges;
@@ -12,4 +12,4 @@ Edges sequential_edges(const std::vector<Eigen::Vector3d>& positions) {
   return edges;
 }
 
-}  // namespace plumb
+}  // namespace plumb::edges_sequential

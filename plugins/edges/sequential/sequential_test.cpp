@@ -1,8 +1,9 @@
 #include "sequential.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::edges_sequential {
 namespace {
 
 TEST(SequentialEdges, JoinEachSegmentWithTheNext) {
@@ -21,7 +22,7 @@ TEST(SequentialEdges, JoinEachSegmentWithTheNext) {
 TEST(SequentialEdges, AreNoneForOneSegmentAndThatIsSaid) {
   EXPECT_EQ(sequential_edges({}).size(), 0u);
   TestContext context;
-  const auto edges = StepRun(*plumb_module())
+  const auto edges = StepUnderTest(*plumb_module())
                          .each("ranges", std::vector<FrameRange>(1))
                          .run<Edges>("edges", context);
   EXPECT_EQ(edges.size(), 0u);
@@ -33,10 +34,11 @@ TEST(SequentialEdges, TakePlacesFromTheRanges) {
   std::vector<FrameRange> ranges(3);
   for (int k = 0; k < 3; ++k) ranges[k].T_world_segment.translation.x() = 5e6 + 10 * k;
   TestContext context;
-  const auto edges = StepRun(*plumb_module()).each("ranges", ranges).run<Edges>("edges", context);
+  const auto edges =
+      StepUnderTest(*plumb_module()).each("ranges", ranges).run<Edges>("edges", context);
   ASSERT_EQ(edges.size(), 2u);
   EXPECT_FLOAT_EQ(edges.list[1].centroid_distance, 10);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_sequential

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "sequential.hpp"
 
-namespace plumb {
+namespace plumb::edges_sequential {
 namespace {
 
 struct SequentialEdges : WholeStep {
@@ -32,6 +34,6 @@ struct SequentialEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_sequential
 
-PLUMB_MODULE(plumb::SequentialEdges)
+PLUMB_MODULE(plumb::edges_sequential::SequentialEdges)

@@ -4,7 +4,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::edges_union {
 
 Edges joined(const std::vector<const Edges*>& lists) {
   Edges all;
@@ -24,4 +24,4 @@ Edges joined(const std::vector<const Edges*>& lists) {
   return all;
 }
 
-}  // namespace plumb
+}  // namespace plumb::edges_union

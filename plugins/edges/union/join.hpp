@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::edges_union {
 
 /// All edges of `lists`, ordered by (i, j), each pair once: the first list to name a pair decides
 /// on kind and score. Throws Error when the lists are of different numbers of segments.
 Edges joined(const std::vector<const Edges*>& lists);
 
-}  // namespace plumb
+}  // namespace plumb::edges_union

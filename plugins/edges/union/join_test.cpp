@@ -1,8 +1,9 @@
 #include "join.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::edges_union {
 namespace {
 
 constexpr auto sequential = EdgeKind::sequential;
@@ -24,7 +25,7 @@ TEST(UnionOfEdges, LetsTheFirstToNameAPairDecide) {
   EXPECT_EQ(joined({&a, &b}).list.front().kind, neighbour);
   EXPECT_EQ(joined({&b, &a}).list.front().kind, loop);
   TestContext context;
-  const auto all = StepRun(*plumb_module())
+  const auto all = StepUnderTest(*plumb_module())
                        .add("edges", "a", a)
                        .add("edges", "b", b)
                        .run<Edges>("edges", context);
@@ -40,4 +41,4 @@ TEST(UnionOfEdges, RefusesEdgesOfOtherSegments) {
 TEST(UnionOfEdges, OfNothingIsNothing) { EXPECT_EQ(joined({}).size(), 0u); }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_union

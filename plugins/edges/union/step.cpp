@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "join.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::edges_union {
 namespace {
 
 struct UnionOfEdges : WholeStep {
@@ -34,6 +36,6 @@ struct UnionOfEdges : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::edges_union
 
-PLUMB_MODULE(plumb::UnionOfEdges)
+PLUMB_MODULE(plumb::edges_union::UnionOfEdges)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace plumb {
+namespace plumb::estimate_normals {
 namespace {
 
 constexpr std::size_t block_points = 1024;  // fixed, so that blocks do not follow the threads
@@ -84,7 +84,7 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
     for (std::size_t k = block * block_points; k < end; ++k) {
       const auto& points = finder.around(k);
       Eigen::Vector3f normal =
-          of.planar ? line_normal(points.data(), points.size())
+          of.planar ? planar::line_normal(points.data(), points.size())
                     : plane_normal(points.data(), points.size(), of.min_width, of.max_thickness);
       if (normal.isZero()) {
         ++without[block];
@@ -99,4 +99,4 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
   return sum;
 }
 
-}  // namespace plumb
+}  // namespace plumb::estimate_normals

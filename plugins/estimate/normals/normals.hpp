@@ -6,12 +6,12 @@
 #include <functional>
 #include <optional>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/line_normal.hpp"
-#include "plumb/geometry/search_tree.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/search_tree.hpp"
+#include "shared/planar/line_normal.hpp"
 
-namespace plumb {
+namespace plumb::estimate_normals {
 
 /// Which points count as neighbours of a point, itself included: the `most` nearest of those within
 /// `radius` [m]. Either may be left open, not both.
@@ -42,4 +42,4 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
 Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count,
                              double min_width = 1e-3, double max_thickness = 1);
 
-}  // namespace plumb
+}  // namespace plumb::estimate_normals

@@ -2,24 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/parallel/loop_testing.hpp"
 
-namespace plumb {
+namespace plumb::estimate_normals {
 namespace {
-
-/// Runs the bodies in four threads, each from the last to the first.
-struct ThreadedContext : TestContext {
-  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
-    std::vector<std::jthread> threads;
-    for (std::size_t t = 0; t < 4; ++t)
-      threads.emplace_back([&body, n, t] {
-        for (std::size_t k = n; k-- > 0;)
-          if (k % 4 == t) body(k);
-      });
-  }
-};
 
 Cloud plane(const Eigen::Vector3f& normal, std::size_t count, float noise, std::uint64_t seed) {
   Random random(seed);
@@ -98,7 +86,7 @@ TEST(Normals, AreTheSameForOneAndForFourThreads) {
   const SearchTree tree(one);
   const auto origin = [](std::size_t) { return Eigen::Vector3f(9, 9, 9); };
   TestContext alone;
-  ThreadedContext together;
+  parallel::ThreadedContext together;
   estimate_normals(one, tree, {0.5, 20}, origin, alone);
   estimate_normals(four, tree, {0.5, 20}, origin, together);
   EXPECT_EQ(one.nx, four.nx);
@@ -185,23 +173,4 @@ TEST(Normals, OfAnEmptyCloudAreEmpty) {
 }
 
 }  // namespace
-TEST(LineNormal, StandsOnTheLineWhateverItsDirection) {
-  for (double angle = 0; angle < 3.1; angle += 0.3) {
-    std::vector<Eigen::Vector3f> points;
-    for (int k = -4; k <= 4; ++k)
-      points.emplace_back(0.1 * k * std::cos(angle), 0.1 * k * std::sin(angle), 0);
-    const Eigen::Vector3f normal = line_normal(points.data(), points.size());
-    EXPECT_NEAR(normal.norm(), 1, 1e-6);
-    EXPECT_NEAR(normal.x() * std::cos(angle) + normal.y() * std::sin(angle), 0, 1e-6);
-    EXPECT_EQ(normal.z(), 0);
-  }
-}
-
-TEST(LineNormal, IsZeroAtACorner) {
-  std::vector<Eigen::Vector3f> points;
-  for (int k = 0; k < 5; ++k)
-    points.emplace_back(0.1f * k, 0, 0), points.emplace_back(0, 0.1f * k, 0);
-  EXPECT_TRUE(line_normal(points.data(), points.size()).isZero());
-}
-
-}  // namespace plumb
+}  // namespace plumb::estimate_normals

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "normals.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::estimate_normals {
 namespace {
 
 struct EstimateNormals : SegmentStep {
@@ -29,7 +31,7 @@ struct EstimateNormals : SegmentStep {
     is.name("estimate.normals").version(1);
     is.summary(
         "Estimates the normal of every point from its neighbourhood, oriented towards the sensor.");
-    is.source("[Rusu2009] II.A; turned as in [Tang2024] 2.3.2");
+    is.source("[Rusu2009] II.A; the orientation is ours");
     is.input("segment", &In::segment, "the cloud");
     is.scale(&In::scale);
     is.output("segment", &Out::segment,
@@ -75,6 +77,6 @@ struct EstimateNormals : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::estimate_normals
 
-PLUMB_MODULE(plumb::EstimateNormals)
+PLUMB_MODULE(plumb::estimate_normals::EstimateNormals)

@@ -1,6 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::estimate_normals {
 namespace {
 
 /// A horizontal patch, seen by frame 0 from above (even points) and by frame 1 from below (odd
@@ -24,7 +26,7 @@ Segment patch() {
 TEST(EstimateNormalsStep, TurnsEachNormalToTheSensorOfItsOwnFrame) {
   TestContext context;
   const auto result =
-      StepRun(*plumb_module()).with("segment", patch()).run<Segment>("segment", context);
+      StepUnderTest(*plumb_module()).with("segment", patch()).run<Segment>("segment", context);
   ASSERT_EQ(result.cloud.size(), 401u);
   for (std::size_t k = 0; k < 400; ++k) EXPECT_NEAR(result.cloud.nz[k], k % 2 ? -1 : 1, 1e-5);
   EXPECT_TRUE(result.cloud.normal(400).isZero());
@@ -41,7 +43,7 @@ TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
   rows = rows.with(rows.cloud, rows.frame);
   for (const bool wide : {false, true}) {
     TestContext context;
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.with("segment", rows);
     if (wide) step.set("min_width", 0.2);
     step.run<Segment>("segment", context);
@@ -51,7 +53,7 @@ TEST(EstimateNormalsStep, GivesNoNormalWhereTheSharesAreNotMet) {
 
 TEST(EstimateNormalsStep, RefusesANeighbourhoodWithoutBounds) {
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("segment", patch())
       .set("radius", std::monostate())
       .set("max_neighbours", std::monostate());
@@ -59,4 +61,4 @@ TEST(EstimateNormalsStep, RefusesANeighbourhoodWithoutBounds) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::estimate_normals

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plumb {
+namespace plumb::estimate_scale {
 
 double usual_speed(const Trajectory& trajectory) {
   std::vector<double> speeds;
@@ -25,4 +25,4 @@ double scale_at(double speed, double full_speed, double min_factor) {
   return speed > 0 ? std::clamp(speed / full_speed, min_factor, 1.0) : 1.0;
 }
 
-}  // namespace plumb
+}  // namespace plumb::estimate_scale

@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::estimate_scale {
 namespace {
 
 /// Frames every `period` [s] along x, one motion a speed [m/s].
@@ -29,7 +30,7 @@ std::vector<double> a_walk() {
 }
 Metrics run(const Trajectory& trajectory, const ParameterValues& values = {}) {
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("trajectory", trajectory);
   for (const auto& [name, value] : values) step.set(name, value);
   return step.run<Metrics>("scale", context);
@@ -120,4 +121,4 @@ TEST(EstimateScale, IsOneForATrajectoryWithoutMotion) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::estimate_scale

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "scale.hpp"
 
-namespace plumb {
+namespace plumb::estimate_scale {
 namespace {
 
 struct EstimateScale : WholeStep {
@@ -48,6 +50,6 @@ struct EstimateScale : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::estimate_scale
 
-PLUMB_MODULE(plumb::EstimateScale)
+PLUMB_MODULE(plumb::estimate_scale::EstimateScale)

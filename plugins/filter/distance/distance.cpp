@@ -1,6 +1,6 @@
 #include "distance.hpp"
 
-namespace plumb {
+namespace plumb::filter_distance {
 
 Shell within_shell(const Cloud& cloud, float least, float most) {
   const float low = least * least, high = most * most;
@@ -25,4 +25,4 @@ Shell within_shell(const Cloud& cloud, float least, float most) {
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::filter_distance

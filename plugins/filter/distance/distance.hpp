@@ -1,9 +1,9 @@
 #pragma once
 /// Keeps the points in a shell round the sensor.
 
-#include "plumb/data/cloud.hpp"
+#include "plumb/slam/cloud.hpp"
 
-namespace plumb {
+namespace plumb::filter_distance {
 
 struct Shell {
   Cloud cloud;  ///< the points kept, in their order
@@ -15,4 +15,4 @@ struct Shell {
 /// The points with least <= |p| <= most [m], compared as squares in float. Source: [Tang2024] 2.2.
 Shell within_shell(const Cloud& cloud, float least, float most);
 
-}  // namespace plumb
+}  // namespace plumb::filter_distance

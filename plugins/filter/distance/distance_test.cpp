@@ -7,10 +7,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::filter_distance {
 namespace {
 
 using testing::ElementsAre;
@@ -75,4 +76,4 @@ TEST(FilterDistance, RefusesBoundsThatLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_distance

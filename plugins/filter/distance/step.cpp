@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "distance.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::filter_distance {
 namespace {
 
 struct Distance : FrameStep {
@@ -47,6 +49,6 @@ struct Distance : FrameStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_distance
 
-PLUMB_MODULE(plumb::Distance)
+PLUMB_MODULE(plumb::filter_distance::Distance)

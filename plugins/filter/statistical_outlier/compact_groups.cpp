@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 namespace {
 
 struct Item {
@@ -44,4 +44,4 @@ std::vector<std::uint32_t> compact_groups(const Cloud& cloud, std::size_t size) 
   return order;
 }
 
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier

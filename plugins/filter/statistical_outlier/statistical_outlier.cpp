@@ -7,7 +7,7 @@
 #include "compact_groups.hpp"
 #include "sum_of_nearest.hpp"
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 
 namespace {
 
@@ -81,7 +81,7 @@ class GroupSearch {
 }  // namespace
 
 std::vector<float> mean_distances(const Cloud& cloud, const SearchTree& tree, std::size_t mean_k,
-                                  const ParallelFor& parallel) {
+                                  const parallel::Loop& parallel) {
   constexpr std::size_t task = 512 * group_size;  // points
   const std::vector<std::uint32_t> order = compact_groups(cloud, group_size);
   std::vector<float> means(cloud.size());
@@ -108,4 +108,4 @@ std::vector<std::uint32_t> not_beyond(const std::vector<float>& values, double s
   return kept;
 }
 
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier

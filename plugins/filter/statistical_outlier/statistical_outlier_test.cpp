@@ -9,6 +9,8 @@
 #include "compact_groups.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/parallel/loop_testing.hpp"
 #include "sum_of_nearest.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
@@ -16,7 +18,7 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 namespace {
 
 using testing::Each;
@@ -24,16 +26,9 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-void one_after_the_other(std::size_t n, const std::function<void(std::size_t)>& body) {
-  for (std::size_t k = 0; k < n; ++k) body(k);
-}
-void backwards(std::size_t n, const std::function<void(std::size_t)>& body) {
-  while (n > 0) body(--n);
-}
-
 std::vector<float> means(const Cloud& cloud, std::size_t mean_k,
-                         const ParallelFor& parallel = one_after_the_other) {
-  return mean_distances(cloud, SearchTree(cloud), mean_k, parallel);
+                         const parallel::Loop& loop = parallel::in_order) {
+  return mean_distances(cloud, SearchTree(cloud), mean_k, loop);
 }
 
 /// A wall of points of uneven density, and some points in the air before it.
@@ -83,7 +78,7 @@ TEST(StatisticalOutlier, AgreesWithBruteForce) {
 
 TEST(StatisticalOutlier, DoesNotDependOnTheOrderOfItsTasks) {
   const Cloud cloud = wall_with_birds(20000, 300);
-  EXPECT_EQ(means(cloud, 20, backwards), means(cloud, 20));
+  EXPECT_EQ(means(cloud, 20, parallel::backwards), means(cloud, 20));
 }
 
 TEST(CompactGroups, HoldEachPointOnceAndNearOnesTogether) {
@@ -161,4 +156,4 @@ TEST(StatisticalOutlier, KeepsThePointsThatPclKeeps) {
 #endif
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "statistical_outlier.hpp"
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 namespace {
 
 struct StatisticalOutlier : SegmentStep {
@@ -34,8 +36,7 @@ struct StatisticalOutlier : SegmentStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment& segment = *in.segment;
     const auto means =
-        mean_distances(segment.cloud, segment.tree(), params.mean_k,
-                       [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+        mean_distances(segment.cloud, segment.tree(), params.mean_k, parallel::on(context));
     const auto kept = not_beyond(means, params.stddev_mul_thresh);
     if (kept.size() < means.size()) context.count("outliers removed", means.size() - kept.size());
     return {segment.selected(kept)};
@@ -43,6 +44,6 @@ struct StatisticalOutlier : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier
 
-PLUMB_MODULE(plumb::StatisticalOutlier)
+PLUMB_MODULE(plumb::filter_statistical_outlier::StatisticalOutlier)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 namespace {
 
 std::size_t count_up_to(const float* squares, std::size_t n, float threshold) {
@@ -56,4 +56,4 @@ float sum_of_nearest(const float* squares, std::size_t n, std::size_t wanted, fl
   return sum_up_to(squares, n, low) + static_cast<float>(wanted - at_low) * std::sqrt(high);
 }
 
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace plumb {
+namespace plumb::filter_statistical_outlier {
 
 /// Sum of the square roots of the `wanted` smallest of squares[0 .. n-1], which are not negative;
 /// `bound` is a value that at least `wanted` of them do not exceed (1 <= wanted <= n). Rearranges
@@ -14,4 +14,4 @@ namespace plumb {
 /// one at every value.
 float sum_of_nearest(const float* squares, std::size_t n, std::size_t wanted, float bound);
 
-}  // namespace plumb
+}  // namespace plumb::filter_statistical_outlier

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "voxel_grid.hpp"
 
-namespace plumb {
+namespace plumb::filter_voxel_grid {
 namespace {
 
 struct VoxelGrid : SegmentStep {
@@ -17,7 +19,7 @@ struct VoxelGrid : SegmentStep {
   };
 
   static void describe(Declaration<VoxelGrid>& is) {
-    is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2");
+    is.name("filter.voxel_grid").version(1).source("[Tang2024] 2.2; the mean as in [Zhang2023] 2");
     is.summary("Downsamples a cloud to one point per voxel, the mean of its points.");
     is.input("segment", &In::segment, "the cloud to downsample");
     is.scale(&In::scale);
@@ -38,6 +40,6 @@ struct VoxelGrid : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_voxel_grid
 
-PLUMB_MODULE(plumb::VoxelGrid)
+PLUMB_MODULE(plumb::filter_voxel_grid::VoxelGrid)

@@ -1,10 +1,10 @@
 #include "voxel_grid.hpp"
 
-namespace plumb {
+namespace plumb::filter_voxel_grid {
 
 Thinned thin(const Cloud& cloud, const std::vector<std::uint16_t>& frame,
              const std::vector<Eigen::Vector3f>& origins, double voxel_size) {
-  VoxelMeans means(voxel_size);
+  thinning::VoxelMeans means(voxel_size);
   means.add(cloud, frame, origins);
   return means.take();
 }
@@ -13,4 +13,4 @@ Thinned thin(const Segment& segment, double voxel_size) {
   return thin(segment.cloud, segment.frame, segment.range.origins(), voxel_size);
 }
 
-}  // namespace plumb
+}  // namespace plumb::filter_voxel_grid

@@ -1,12 +1,12 @@
 #pragma once
 /// Thins a cloud to one point per occupied cubic cell.
 
-#include "plumb/data/segment.hpp"
-#include "plumb/data/voxel_means.hpp"
+#include "plumb/slam/segment.hpp"
+#include "shared/thinning/voxel_means.hpp"
 
-namespace plumb {
+namespace plumb::filter_voxel_grid {
 
-using Thinned = VoxelMeans::Result;
+using Thinned = thinning::VoxelMeans::Result;
 
 /// The means of VoxelMeans, of one cloud. `voxel_size` [m]; point k was seen by frame[k] (empty:
 /// none is given, and none comes out), whose sensor stood at origins[frame[k]]. Throws Error when
@@ -17,4 +17,4 @@ Thinned thin(const Cloud& cloud, const std::vector<std::uint16_t>& frame,
 /// The same for a segment.
 Thinned thin(const Segment& segment, double voxel_size);
 
-}  // namespace plumb
+}  // namespace plumb::filter_voxel_grid

@@ -9,10 +9,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::filter_voxel_grid {
 namespace {
 
 using testing::ElementsAre;
@@ -20,7 +21,7 @@ using testing::FloatEq;
 using testing::HasSubstr;
 
 Thinned thin(const Cloud& cloud, double voxel_size) {
-  return plumb::thin(cloud, {}, {}, voxel_size);
+  return filter_voxel_grid::thin(cloud, {}, {}, voxel_size);
 }
 
 Cloud cloud_of(std::initializer_list<Eigen::Vector3f> points) {
@@ -123,15 +124,17 @@ TEST(VoxelGrid, AveragesNormalsToUnitLengthAndKeepsOneWhereTheyCancelOut) {
 
 TEST(VoxelGrid, NamesTheFrameThatSawTheCellFromNearest) {
   const Cloud cloud = cloud_of({{10, 0, 0}, {10.1f, 0, 0}, {10.2f, 0, 0}, {-30, 0, 0}});
-  const auto result = plumb::thin(cloud, {0, 2, 1, 0}, {{0, 0, 0}, {8, 0, 0}, {9, 0, 0}}, 1);
+  const auto result =
+      filter_voxel_grid::thin(cloud, {0, 2, 1, 0}, {{0, 0, 0}, {8, 0, 0}, {9, 0, 0}}, 1);
   EXPECT_THAT(result.frame, ElementsAre(2, 0));
 }
 
 TEST(VoxelGrid, DropsAndCountsPointsThatAreNoNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               inf = std::numeric_limits<float>::infinity();
-  const auto result = plumb::thin(cloud_of({{nan, 0, 0}, {1, 2, 3}, {0, inf, 0}, {0, 0, -inf}}),
-                                  {0, 1, 0, 0}, {{0, 0, 0}, {0, 0, 0}}, 0.3);
+  const auto result =
+      filter_voxel_grid::thin(cloud_of({{nan, 0, 0}, {1, 2, 3}, {0, inf, 0}, {0, 0, -inf}}),
+                              {0, 1, 0, 0}, {{0, 0, 0}, {0, 0, 0}}, 0.3);
   EXPECT_THAT(result.cloud.x, ElementsAre(1));
   EXPECT_THAT(result.frame, ElementsAre(1));
   EXPECT_EQ(result.dropped, 3u);
@@ -159,4 +162,4 @@ TEST(VoxelGrid, GivesASegmentWithItsOwnCentroidAndBox) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::filter_voxel_grid

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <optional>
 
-namespace plumb {
+#include "shared/selection/median.hpp"
+
+namespace plumb::gate_distance {
 
 double change_of(double r0, double r1) {
   const double sum = r0 + r1;
@@ -25,10 +27,7 @@ std::vector<double> stretches(const std::vector<Seen>& scans) {
 
 double median_of_positive(std::vector<double> values) {
   std::erase_if(values, [](double v) { return v <= 0; });
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return selection::median(std::move(values));
 }
 
 }  // namespace
@@ -74,4 +73,4 @@ Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options) {
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::gate_distance

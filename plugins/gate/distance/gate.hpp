@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::gate_distance {
 
 /// What the gate sees of a scan.
 struct Seen {
@@ -46,4 +46,4 @@ double change_of(double r0, double r1);
 /// window.
 Gated gated_chain(const std::vector<Seen>& scans, const GateOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::gate_distance

@@ -1,8 +1,9 @@
 #include "gate.hpp"
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::gate_distance {
 namespace {
 
 /// Scans of 100 points at these ranges; a negative one is empty.
@@ -109,10 +110,10 @@ TEST(GateDistance, TakesTheRangeOfTheCloudsOwnCentre) {
     segments.push_back(Segment().with(cloud, std::vector<std::uint16_t>(20, 0)));
   }
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.each("segments", segments);
   EXPECT_EQ(text(step.run<Edges>("edges", context)), "0-1 1-3");
-  EXPECT_EQ(context.counts["scans dropped because they jump"], 1u);
+  EXPECT_EQ(context.counts["scans dropped for a jump"], 1u);
   EXPECT_EQ(step.run<Metrics>("metrics", context).numbers[1].value, 1);
 }
 
@@ -128,23 +129,25 @@ TEST(GateDistance, TakesStampsFromTheTrajectory) {
     segments[k].range.first = 2 * k, segments[k].range.end = 2 * k + 2;
   }
   TestContext context;
-  EXPECT_EQ(text(StepRun(*plumb_module())
+  EXPECT_EQ(text(StepUnderTest(*plumb_module())
                      .each("segments", segments)
                      .with("trajectory", trajectory)
                      .run<Edges>("edges", context)),
             "0-1 1-2 2-3 3-4 4-5! 5-6 6-7");
   trajectory.stamps.resize(15), trajectory.T_world_frame.resize(15);
-  StepRun other(*plumb_module());
+  StepUnderTest other(*plumb_module());
   other.each("segments", segments).with("trajectory", trajectory);
   EXPECT_THROW(other.run<Edges>("edges", context), Error);
 }
 
 TEST(GateDistance, SaysThatThereIsNoChain) {
   TestContext context;
-  StepRun(*plumb_module()).each("segments", std::vector<Segment>(3)).run<Edges>("edges", context);
+  StepUnderTest(*plumb_module())
+      .each("segments", std::vector<Segment>(3))
+      .run<Edges>("edges", context);
   ASSERT_EQ(context.warnings.size(), 1u);
   EXPECT_EQ(context.warnings[0], "fewer than two scans of 3 are accepted: there is no chain");
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::gate_distance

@@ -1,8 +1,10 @@
-#include "gate.hpp"
-#include "plumb/data/trajectory.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "gate.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/trajectory.hpp"
+
+namespace plumb::gate_distance {
 namespace {
 
 struct GateDistance : WholeStep {
@@ -67,8 +69,8 @@ struct GateDistance : WholeStep {
     const auto count = [&](const char* what, std::size_t n) {
       if (n) context.count(what, n);
     };
-    count("scans dropped because they jump", gated.far);
-    count("scans dropped because they have too few points", gated.empty);
+    count("scans dropped for a jump", gated.far);
+    count("scans dropped for too few points", gated.empty);
     count("windows restarted", gated.resets);
     count("of these after a stretch without scans", gated.gaps);
     if (gated.accepted < 2)
@@ -84,6 +86,6 @@ struct GateDistance : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::gate_distance
 
-PLUMB_MODULE(plumb::GateDistance)
+PLUMB_MODULE(plumb::gate_distance::GateDistance)

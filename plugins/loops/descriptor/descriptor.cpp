@@ -5,15 +5,10 @@
 #include <set>
 #include <tuple>
 
-namespace plumb {
-namespace {
+#include "shared/selection/median.hpp"
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
+namespace plumb::loops_descriptor {
+namespace {
 
 struct Seed {
   double similarity;
@@ -37,10 +32,11 @@ class LoopSearch {
       path_[k + 1] = path_[k] + steps.back();
       if (!options.threshold) similarities.push_back(alike(k, k + 1));
     }
-    found_.min_path_separation = options.min_path_separation.value_or(4 * median(steps));
-    found_.max_centroid_distance = options.max_centroid_distance.value_or(2 * median(steps));
+    found_.min_path_separation = options.min_path_separation.value_or(4 * selection::median(steps));
+    found_.max_centroid_distance =
+        options.max_centroid_distance.value_or(2 * selection::median(steps));
     found_.threshold =
-        options.threshold.value_or(options.relative_threshold * median(similarities));
+        options.threshold.value_or(options.relative_threshold * selection::median(similarities));
     found_.edges.segments = count_;
     loops_of_.assign(count_, 0);
   }
@@ -146,4 +142,4 @@ Loops find_loops(const Places& places,
   return LoopSearch(places, alike, options).run();
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

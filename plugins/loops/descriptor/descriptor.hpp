@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 
 /// World coordinates [m] of each segment, under poses that may have drifted.
 struct Places {
@@ -18,14 +18,50 @@ struct Places {
 /// In metres, ratios and similarities from 0 to 1. The step is the distance from one segment to
 /// the next.
 struct LoopOptions {
-  std::uint32_t candidates = 3;               ///< nearest centroids that are compared by similarity
-  std::optional<double> min_path_separation;  ///< between two passes; none: 4 x the median step
-  std::optional<double>
-      max_centroid_distance;  ///< of centroids, without drift; none: 2 x the median step
-  double drift = 0.03;        ///< of the path between two passes, added to 'max_centroid_distance'
-  std::optional<double> threshold;      ///< least similarity; none: relative, as follows
-  double relative_threshold = 0.7;      ///< of the median similarity of consecutive segments
-  std::uint32_t loops_per_segment = 2;  ///< edges are added until both ends have so many
+  std::uint32_t candidates = 3;
+  std::optional<double> min_path_separation;    ///< none: 4 x the median step
+  std::optional<double> max_centroid_distance;  ///< none: 2 x the median step
+  double drift = 0.03;
+  std::optional<double> threshold;  ///< none: relative, as follows
+  double relative_threshold = 0.7;
+  std::uint32_t loops_per_segment = 2;
+
+  /// As parameters of a step.
+  template <class Declare>
+  static void describe(Declare& is) {
+    is.param("candidates", &LoopOptions::candidates)
+        .range(1, 1000)
+        .doc("number of nearest centroids that are compared by similarity")
+        .source("[Tang2024] 2.3.1");
+    is.param("min_path_separation", &LoopOptions::min_path_separation)
+        .unit("m")
+        .range(0, 1e6)
+        .doc("path between two visits; none: 4 x the median distance of consecutive segments");
+    is.param("max_centroid_distance", &LoopOptions::max_centroid_distance)
+        .unit("m")
+        .range(0, 1e6)
+        .doc(
+            "distance of the centroids without drift; none: 2 x the median distance of consecutive "
+            "segments");
+    is.param("drift", &LoopOptions::drift)
+        .unit("%")
+        .range(0, 1)
+        .doc(
+            "expected drift, as a share of the path between two visits; added to "
+            "'max_centroid_distance'");
+    is.param("threshold", &LoopOptions::threshold)
+        .range(0, 1)
+        .doc(
+            "least similarity; none: 'relative_threshold' x the median similarity of consecutive "
+            "segments");
+    is.param("relative_threshold", &LoopOptions::relative_threshold)
+        .unit("%")
+        .range(0, 10)
+        .doc("see 'threshold'");
+    is.param("loops_per_segment", &LoopOptions::loops_per_segment)
+        .range(1, 1000)
+        .doc("edges are added until both ends have this many");
+  }
 };
 
 struct Loops {
@@ -43,9 +79,11 @@ struct Loops {
 /// ... or (i-1, j+1), (i+1, j-1), ..., whichever way has the greater sum of similarities, until the
 /// threshold or what a partner may be is not met. Then the same from the most similar pair that is
 /// left and has an end with too few edges. So there are at most loops_per_segment x segments edges.
-/// Source: [Tang2024] 2.3.1; the second way and the later walks are ours.
+/// Source: [Tang2024] 2.3.1 and its figure 1, whose text names of the walk only that it ends where
+/// (i-2, j-2) is below the threshold. How near and how far along the path a partner must be, the
+/// relative threshold, further partners, the second way and the later walks are ours.
 Loops find_loops(const Places& places,
                  const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

@@ -7,8 +7,9 @@
 #include <set>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 namespace {
 
 /// A drive: where each segment really is, and where a drifting odometry has it.
@@ -150,14 +151,14 @@ Descriptor look_of(const Eigen::Vector3d& place) {
         static_cast<float>(0.05 * std::exp(-std::pow((k - 0.2 * place.x()) / 4, 2))));
   return d;
 }
-StepRun step_for(const Drive& drive) {
+StepUnderTest step_for(const Drive& drive) {
   std::vector<Descriptor> descriptors;
   Poses poses;
   for (std::size_t k = 0; k < drive.truth.size(); ++k) {
     descriptors.push_back(look_of(drive.truth[k]));
     poses.T_world_segment.push_back({Eigen::Quaterniond::Identity(), drive.drifted[k]});
   }
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.each("descriptors", descriptors)
       .each("segments", std::vector<Segment>(drive.truth.size()))
       .with("poses", poses);
@@ -188,11 +189,11 @@ TEST(LoopEdges, SayThatThereIsNoLoopAndGoOn) {
 }
 
 TEST(LoopEdges, RefuseDescriptorsOfOtherSegments) {
-  StepRun step = step_for(out_and_back(5));
+  StepUnderTest step = step_for(out_and_back(5));
   step.each("descriptors", std::vector<Descriptor>(3));
   TestContext context;
   EXPECT_THROW(step.run<Edges>("edges", context), Error);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

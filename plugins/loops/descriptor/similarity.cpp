@@ -5,7 +5,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 namespace {
 
 double inverse_difference(const std::vector<float>& a, const std::vector<float>& b,
@@ -58,4 +58,4 @@ double similarity(const std::vector<float>& a, const std::vector<float>& b, Simi
   return 0;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 
 enum class Similarity {
   inverse_difference,  ///< [Tang2024] eq. 1, guarded
@@ -22,4 +22,4 @@ enum class Similarity {
 double similarity(const std::vector<float>& a, const std::vector<float>& b, Similarity measure,
                   double epsilon);
 
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

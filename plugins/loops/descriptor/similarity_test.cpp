@@ -7,7 +7,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/context.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 namespace {
 
 constexpr Similarity every[] = {Similarity::inverse_difference, Similarity::cosine,
@@ -93,4 +93,4 @@ TEST(Similarity, RefusesDescriptorsOfDifferentLengths) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor

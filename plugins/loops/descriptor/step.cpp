@@ -1,9 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include "descriptor.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/short_number.hpp"
 #include "plumb/plugin/module.hpp"
 #include "similarity.hpp"
 
-namespace plumb {
+namespace plumb::loops_descriptor {
 namespace {
 
 struct LoopEdges : WholeStep {
@@ -16,15 +19,16 @@ struct LoopEdges : WholeStep {
   struct Out {
     Edges edges;
   };
-  struct Params : LoopOptions {
+  struct Params {
     Similarity similarity = Similarity::inverse_difference;
     double epsilon = 1e-4;
+    LoopOptions loops;
   };
 
   static void describe(Declaration<LoopEdges>& is) {
     is.name("loops.descriptor").version(1);
     is.summary("Proposes loop edges between segments whose descriptors are similar.");
-    is.source("[Tang2024] 2.3.1, eq. 1");
+    is.source("[Tang2024] 2.3.1, eq. 1, fig. 1");
     is.input("descriptors", &In::descriptors, "one vector per segment");
     is.input("segments", &In::segments, "the clouds, for their centroids");
     is.input("poses", &In::poses, "the current poses of the segments");
@@ -39,48 +43,16 @@ struct LoopEdges : WholeStep {
     is.param("epsilon", &Params::epsilon)
         .range(1e-9, 1)
         .doc("difference of two bins that counts as agreement; for inverse_difference");
-    // Params inherits these, so their members are named by the base.
-    is.param("candidates", as_own(&LoopOptions::candidates))
-        .range(1, 1000)
-        .doc("number of nearest centroids that are compared by similarity")
-        .source("[Tang2024] 2.3.1");
-    is.param("min_path_separation", as_own(&LoopOptions::min_path_separation))
-        .unit("m")
-        .range(0, 1e6)
-        .doc("path between two visits; none: 4 x the median distance of consecutive segments");
-    is.param("max_centroid_distance", as_own(&LoopOptions::max_centroid_distance))
-        .unit("m")
-        .range(0, 1e6)
-        .doc(
-            "distance of the centroids without drift; none: 2 x the median distance of consecutive "
-            "segments");
-    is.param("drift", as_own(&LoopOptions::drift))
-        .unit("%")
-        .range(0, 1)
-        .doc(
-            "expected drift, as a share of the path between two visits; added to "
-            "'max_centroid_distance'");
-    is.param("threshold", as_own(&LoopOptions::threshold))
-        .range(0, 1)
-        .doc(
-            "least similarity; none: 'relative_threshold' x the median similarity of consecutive "
-            "segments");
-    is.param("relative_threshold", as_own(&LoopOptions::relative_threshold))
-        .unit("%")
-        .range(0, 10)
-        .doc("see 'threshold'");
-    is.param("loops_per_segment", as_own(&LoopOptions::loops_per_segment))
-        .range(1, 1000)
-        .doc("edges are added until both ends have this many");
+    is.params(&Params::loops);
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.descriptors.size() != count || in.poses->size() != count)
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.descriptors.size()) + " descriptors and " +
-                  std::to_string(in.poses->size()) +
-                  " poses: wire descriptors and poses of the same segments");
+      throw Error("got " + counted(count, "segments") + ", " +
+                  counted(in.descriptors.size(), "descriptors") + " and " +
+                  counted(in.poses->size(), "poses") +
+                  ": wire descriptors and poses of the same segments");
     Places places{std::vector<Eigen::Vector3d>(count), std::vector<Eigen::Vector3d>(count)};
     std::vector<One<Descriptor>> descriptors(count);
     context.parallel(count, [&](std::size_t k) {
@@ -93,7 +65,7 @@ struct LoopEdges : WholeStep {
       return similarity(descriptors[i]->values, descriptors[j]->values, params.similarity,
                         params.epsilon);
     };
-    Loops loops = find_loops(places, alike, params);
+    Loops loops = find_loops(places, alike, params.loops);
     if (loops.edges.list.empty())
       context.warn("no loop found: no two segments with " +
                    short_number(loops.min_path_separation) +
@@ -101,15 +73,9 @@ struct LoopEdges : WholeStep {
     context.count("loop edges", loops.edges.size());
     return {std::move(loops.edges)};
   }
-
- private:
-  template <class M>
-  static M Params::*as_own(M LoopOptions::*member) {
-    return static_cast<M Params::*>(member);
-  }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_descriptor
 
-PLUMB_MODULE(plumb::LoopEdges)
+PLUMB_MODULE(plumb::loops_descriptor::LoopEdges)

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-namespace plumb {
+namespace plumb::loops_proximity {
 namespace {
 
 using Cell = std::tuple<long, long, long>;
@@ -61,4 +61,4 @@ Edges revisits(const Poses& poses, const ProximityOptions& options) {
   return edges;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_proximity

@@ -1,9 +1,9 @@
 #pragma once
 /// Edges between segments that came near each other on different visits.
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::loops_proximity {
 
 struct ProximityOptions {
   double max_distance = 2;         ///< [m] between two segments' places, at most
@@ -17,4 +17,4 @@ struct ProximityOptions {
 /// distance. By a grid over the places: n log n, and the edges found.
 Edges revisits(const Poses& poses, const ProximityOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::loops_proximity

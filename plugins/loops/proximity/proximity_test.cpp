@@ -5,8 +5,9 @@
 #include <random>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::loops_proximity {
 namespace {
 
 Poses along(const std::vector<Eigen::Vector3d>& places) {
@@ -91,11 +92,11 @@ TEST(Revisits, AreWhatComparingEachPairGives) {
 }
 
 TEST(RevisitsStep, HasNothingToJoinOnAStraightWay) {
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   TestContext context;
   step.with("poses", along({{0, 0, 0}, {5, 0, 0}, {10, 0, 0}}));
   EXPECT_EQ(step.run<Edges>("edges", context).size(), 0u);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_proximity

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "proximity.hpp"
 
-namespace plumb {
+namespace plumb::loops_proximity {
 namespace {
 
 struct ProximityLoops : WholeStep {
@@ -42,6 +44,6 @@ struct ProximityLoops : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_proximity
 
-PLUMB_MODULE(plumb::ProximityLoops)
+PLUMB_MODULE(plumb::loops_proximity::ProximityLoops)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, const Poses& poses,
                                     const SupportOptions& options) {
@@ -39,4 +39,4 @@ std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, cons
   return kept;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 struct SupportOptions {
   std::uint32_t min_support = 1;  ///< others that must agree; 0: all are kept
@@ -21,4 +21,4 @@ struct SupportOptions {
 std::vector<RelativePose> supported(const std::vector<RelativePose>& loops, const Poses& poses,
                                     const SupportOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

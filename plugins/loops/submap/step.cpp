@@ -1,9 +1,11 @@
+#include "plumb/slam/step.hpp"
 
-#include "plumb/data/values.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/values.hpp"
 #include "submap.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 namespace {
 
 struct LoopsSubmap : WholeStep {
@@ -19,7 +21,11 @@ struct LoopsSubmap : WholeStep {
   using Params = LoopOptions;
 
   static void describe(Declaration<LoopsSubmap>& is) {
-    is.name("loops.submap").version(1).source("[Zhang2023] 1, 2; [Olson2009]");
+    is.name("loops.submap")
+        .version(1)
+        .source(
+            "[Zhang2023] 1; the search and the acceptance are ours, after [Olson2009], [Hess2016], "
+            "[Mangelson2018]");
     is.summary(
         "Finds loops by registering a submap of the newest scans to the map of earlier ones.");
     is.input("segments", &In::segments, "the clouds, in the plane");
@@ -29,6 +35,32 @@ struct LoopsSubmap : WholeStep {
     is.output("constraints", &Out::constraints, "a relative pose for each loop");
     is.output("metrics", &Out::metrics,
               "how many submaps were searched for and places tried, and why loops were rejected");
+    describe_candidates(is);
+    describe_search(is);
+    describe_acceptance(is);
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    if (in.poses->size() != in.segments.size())
+      throw Error("got " + counted(in.segments.size(), "segments") + " and " +
+                  counted(in.poses->size(), "poses") + ": wire poses of the same segments");
+    auto found = find_loops([&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses,
+                            in.known ? &*in.known : nullptr, params, context);
+    Out out;
+    out.metrics.add("loops", static_cast<double>(found.constraints.relative.size()), "")
+        .add("groups_asked", found.counts.asked, "")
+        .add("places_tried", found.counts.tried, "")
+        .add("score_too_low", found.counts.low, "")
+        .add("ambiguous", found.counts.ambiguous, "")
+        .add("without_support", found.counts.alone, "");
+    if (found.constraints.relative.empty())
+      out.metrics.notes.push_back("no loop was found: the drift remains");
+    out.constraints = std::move(found.constraints);
+    return out;
+  }
+
+ private:
+  static void describe_candidates(Declaration<LoopsSubmap>& is) {
     is.param("submap_segments", &Params::submap_segments)
         .range(1, 1000)
         .source("[Zhang2023] 2")
@@ -54,6 +86,9 @@ struct LoopsSubmap : WholeStep {
         .doc(
             "submaps that passed each other closer than this, plus the uncertainty, are "
             "candidates");
+  }
+
+  static void describe_search(Declaration<LoopsSubmap>& is) {
     is.param("drift", &Params::drift)
         .range(0, 1)
         .doc("uncertainty of the position for each metre of path");
@@ -80,6 +115,9 @@ struct LoopsSubmap : WholeStep {
         .unit("m")
         .range(1, 1000)
         .doc("points farther from the centre of their submap are left out");
+  }
+
+  static void describe_acceptance(Declaration<LoopsSubmap>& is) {
     is.param("min_score", &Params::min_score)
         .range(0, 1)
         .doc("score of an accepted loop: the mean likelihood of its points");
@@ -100,28 +138,9 @@ struct LoopsSubmap : WholeStep {
             "difference of two loops that agree, a third of it in rad, plus 2 % of the path "
             "between them");
   }
-
-  Out run(const In& in, const Params& params, Context& context) const {
-    if (in.poses->size() != in.segments.size())
-      throw Error("there are " + std::to_string(in.segments.size()) + " segments and " +
-                  std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
-    auto found = find_loops([&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses,
-                            in.known ? &*in.known : nullptr, params, context);
-    Out out;
-    out.metrics.add("loops", static_cast<double>(found.constraints.relative.size()), "")
-        .add("groups_asked", found.counts.asked, "")
-        .add("places_tried", found.counts.tried, "")
-        .add("score_too_low", found.counts.low, "")
-        .add("ambiguous", found.counts.ambiguous, "")
-        .add("without_support", found.counts.alone, "");
-    if (found.constraints.relative.empty())
-      out.metrics.notes.push_back("no loop was found: the drift remains");
-    out.constraints = std::move(found.constraints);
-    return out;
-  }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_submap
 
-PLUMB_MODULE(plumb::LoopsSubmap)
+PLUMB_MODULE(plumb::loops_submap::LoopsSubmap)

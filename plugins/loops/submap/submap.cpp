@@ -6,11 +6,13 @@
 #include <unordered_map>
 
 #include "consistent.hpp"
-#include "plumb/geometry/correlative_search.hpp"
+#include "shared/planar/correlative_search.hpp"
 #include "uncertainty.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 namespace {
+
+using planar::PlanarPose;
 
 /// Planar points, one a cell of edge length `cell`: its first. Those beyond `range` of the origin
 /// are left out.
@@ -44,7 +46,7 @@ class LoopFinder {
       : open_(open),
         options_(options),
         paths_(poses, known, options.turn_length, 2 * options.max_distance) {
-    for (const auto& pose : poses.T_world_segment) poses_.push_back(planar(pose));
+    for (const auto& pose : poses.T_world_segment) poses_.push_back(planar::projected(pose));
   }
 
   /// The segments whose submaps are searched for.
@@ -65,7 +67,7 @@ class LoopFinder {
     for (std::uint32_t k = j + 1 - std::min(j + 1, options_.submap_segments); k <= j; ++k)
       submap.add(open_(k)->cloud, poses_[j].inverse() * poses_[k]);
     if (submap.x.size() < 20) return loops;
-    const double step = yaw_step_for(submap.x, submap.y, options_.resolution);
+    const double step = planar::yaw_step_for(submap.x, submap.y, options_.resolution);
     for (const auto i : places) {
       ++counts.tried;
       if (auto loop = align(submap, step, i, j, lengths[i], counts)) loops.push_back(*loop);
@@ -119,14 +121,14 @@ class LoopFinder {
          ++k)
       map.add(open_(k)->cloud, poses_[i].inverse() * poses_[k]);
     if (map.x.size() < 20) return std::nullopt;
-    const LikelihoodField field(map.x, map.y, options_.resolution, options_.resolution,
-                                3 * options_.resolution, 6);
-    const SearchWindow window{poses_[i].inverse() * poses_[j], search_window(length),
-                              search_window(length), search_angle(length)};
+    const planar::LikelihoodField field(map.x, map.y, options_.resolution, options_.resolution,
+                                        3 * options_.resolution, 6);
+    const planar::SearchWindow window{poses_[i].inverse() * poses_[j], search_window(length),
+                                      search_window(length), search_angle(length)};
     const auto peak = best_pose(field, submap.x, submap.y, window, step, options_.min_score);
     if (!peak) return ++counts.low, std::nullopt;
     if (best_pose(field, submap.x, submap.y, window, step, options_.max_second_peak * peak->score,
-                  Excluded{peak->pose, options_.min_peak_distance, 0.25}))
+                  planar::Excluded{peak->pose, options_.min_peak_distance, 0.25}))
       return ++counts.ambiguous, std::nullopt;
     const PlanarPose T = between_cells(field, submap.x, submap.y, peak->pose, step);
     RelativePose loop{i, j, in_space(T), Matrix6d::Zero()};
@@ -173,4 +175,4 @@ Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -1,15 +1,15 @@
 #pragma once
 /// Loops by registering a submap of the newest scans to the map of earlier ones. Source:
-/// [Zhang2023] 1, 2; the search is ours.
+/// [Zhang2023] 1; which places are tried, the search and what is accepted are ours.
 
 #include <functional>
 #include <memory>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 struct LoopOptions {
   std::uint32_t submap_segments = 10;  ///< segments in a submap, the current one the last
@@ -51,4 +51,4 @@ Loops find_loops(const std::function<std::shared_ptr<const Segment>(std::size_t)
                  const Poses& poses, const Constraints* known, const LoopOptions& options,
                  Context& context);
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -3,29 +3,22 @@
 #include <gtest/gtest.h>
 
 #include "consistent.hpp"
-#include "plumb/geometry/planar.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/planar/room_testing.hpp"
 #include "uncertainty.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 namespace {
 
-/// Walls as segments x0 y0 x1 y1 [m].
-using Plan = std::vector<std::array<double, 4>>;
+using planar::PlanarPose;
+using Plan = planar::Walls;
 
 Cloud scan(const Plan& plan, const PlanarPose& at) {
   Cloud cloud;
   for (int k = 0; k < 240; ++k) {
-    const double angle = 2 * M_PI * k / 240, dx = std::cos(at.yaw + angle),
-                 dy = std::sin(at.yaw + angle);
-    double nearest = 12;
-    for (const auto& w : plan) {
-      const double ex = w[2] - w[0], ey = w[3] - w[1], det = ex * dy - ey * dx;
-      if (std::abs(det) < 1e-12) continue;
-      const double px = w[0] - at.x, py = w[1] - at.y;
-      const double range = (ex * py - ey * px) / det, along = (dx * py - dy * px) / det;
-      if (range > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, range);
-    }
+    const double angle = 2 * M_PI * k / 240,
+                 nearest = planar::distance_to(plan, at, at.yaw + angle, 12);
     if (nearest < 12)
       cloud.add({static_cast<float>(nearest * std::cos(angle)),
                  static_cast<float>(nearest * std::sin(angle)), 0});
@@ -91,7 +84,7 @@ Loops loops_of(const Drive& drive, const LoopOptions& options = {}) {
 
 double wrong_by(const Drive& drive, const RelativePose& loop) {
   const PlanarPose truth = drive.truth[loop.i].inverse() * drive.truth[loop.j],
-                   found = planar(loop.T_i_j);
+                   found = planar::projected(loop.T_i_j);
   return std::hypot(truth.x - found.x, truth.y - found.y);
 }
 
@@ -116,7 +109,8 @@ TEST(LoopsSubmap, RefusesWhatIsNotUnique) {
     at = at * PlanarPose{k < 40 ? 0.4 : -0.4, 0, 0};
     there_and_back.truth.push_back(at);
     // The path is believed to be 3 % longer than it is.
-    there_and_back.drifted.T_world_segment.push_back(in_space({22 + 1.03 * (at.x - 22), at.y, 0}));
+    there_and_back.drifted.T_world_segment.push_back(
+        planar::in_space({22 + 1.03 * (at.x - 22), at.y, 0}));
     there_and_back.segments.push_back(segment_of(scan(hall, at)));
   }
   const Loops loops = loops_of(there_and_back);
@@ -138,7 +132,7 @@ TEST(LoopsSubmap, FindsNoLoopOnAStraightPath) {
 }
 
 TEST(LoopsSubmap, StepSaysThatPosesOfOthersWereWired) {
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   TestContext context;
   step.each("segments", std::vector<Segment>(3)).with("poses", Poses());
   EXPECT_THROW(step.run<Constraints>("constraints", context), Error);
@@ -148,7 +142,7 @@ TEST(Consistent, DropsTheLoopThatNoOtherAgreesWith) {
   Poses poses;
   for (int k = 0; k < 100; ++k)
     poses.T_world_segment.push_back(
-        in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
+        planar::in_space({0.5 * (k < 50 ? k : 100 - k), k < 50 ? 0.0 : 1.0, 0}));
   std::vector<RelativePose> loops;
   for (const std::uint32_t j : {70u, 74u, 78u})
     loops.push_back({100 - j, j, poses.relative(100 - j, j), Matrix6d::Identity()});
@@ -163,7 +157,7 @@ TEST(Consistent, DropsTheLoopThatNoOtherAgreesWith) {
 
 TEST(Paths, AreShorterOverAKnownLoop) {
   Poses poses;
-  for (int k = 0; k <= 10; ++k) poses.T_world_segment.push_back(in_space({1.0 * k, 0, 0}));
+  for (int k = 0; k <= 10; ++k) poses.T_world_segment.push_back(planar::in_space({1.0 * k, 0, 0}));
   Constraints loops;
   loops.relative.push_back({0, 10, Pose(), Matrix6d::Identity()});
   EXPECT_DOUBLE_EQ(Paths(poses, nullptr, 0.3, 1).from(10)[1], 9);
@@ -173,4 +167,4 @@ TEST(Paths, AreShorterOverAKnownLoop) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::loops_submap

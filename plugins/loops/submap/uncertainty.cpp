@@ -3,10 +3,10 @@
 #include <limits>
 #include <queue>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/geometry/planar.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 Paths::Paths(const Poses& poses, const Constraints* loops, double turn_length, double loop_length)
     : travelled_(poses.size(), 0), steps_(poses.size()) {
@@ -24,7 +24,7 @@ Paths::Paths(const Poses& poses, const Constraints* loops, double turn_length, d
   for (const auto& loop : loops->relative) {
     if (loop.i >= poses.size() || loop.j >= poses.size())
       throw Error("a loop names segment " + std::to_string(std::max(loop.i, loop.j)) +
-                  ", but there are " + std::to_string(poses.size()) +
+                  ", but got " + counted(poses.size(), "poses") +
                   ": wire loops of the same segments");
     join(loop.i, loop.j, loop_length);
   }
@@ -49,4 +49,4 @@ std::vector<double> Paths::from(std::size_t segment) const {
   return path;
 }
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::loops_submap {
 
 /// The graph of consecutive segments and of the loops that are known.
 class Paths {
@@ -29,4 +29,4 @@ class Paths {
   std::vector<std::vector<Step>> steps_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::loops_submap

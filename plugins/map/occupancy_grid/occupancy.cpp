@@ -7,7 +7,7 @@
 #include "plumb/data/error.hpp"
 #include "ray.hpp"
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 namespace {
 
 /// A scan in units of cells.
@@ -164,7 +164,7 @@ PlacedScan placed(const Cloud& cloud, const Pose& T_world_sensor) {
 }
 
 GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options,
-                  const ParallelLoop& parallel) {
+                  const parallel::Loop& parallel) {
   GridMap map = map_round(scans, options);
   map.log_odds.assign(std::size_t{map.columns} * map.rows, 0.0f);
   std::vector<ScanRays> rays(scans.size());
@@ -187,4 +187,4 @@ GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& optio
   return map;
 }
 
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid

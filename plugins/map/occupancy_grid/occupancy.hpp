@@ -2,13 +2,13 @@
 /// Occupancy of a plane from laser scans whose poses are known. Source: [Moravec1985], [Thrun2005]
 /// ch. 9.
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
+#include "shared/parallel/loop.hpp"
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 
 /// A scan in world coordinates [m].
 struct PlacedScan {
@@ -35,15 +35,11 @@ struct GridOptions {
   }
 };
 
-/// Runs body(k) for k = 0 .. n-1, in any order.
-using ParallelLoop =
-    std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
 /// The map of all scans, taken in their order. In each scan a cell counts once: as hit if any ray
 /// ends in it, else as missed if any ray passes it. A cell that was seen is never 0. The same bytes
 /// for any number of threads. Without scans an empty map. Throws Error: more than `max_cells`, a
 /// place that is no number.
 GridMap occupancy(const std::vector<PlacedScan>& scans, const GridOptions& options,
-                  const ParallelLoop& parallel);
+                  const parallel::Loop& parallel);
 
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid

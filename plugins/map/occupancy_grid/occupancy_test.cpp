@@ -8,19 +8,15 @@
 #include <set>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "ray.hpp"
+#include "shared/parallel/loop_testing.hpp"
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 namespace {
 
+using parallel::in_order;
 using Cells = std::set<std::pair<int, int>>;  // column, row
-
-void in_order(std::size_t n, const std::function<void(std::size_t)>& body) {
-  for (std::size_t k = 0; k < n; ++k) body(k);
-}
-void backwards(std::size_t n, const std::function<void(std::size_t)>& body) {
-  while (n-- > 0) body(n);
-}
 
 Cells passed(const Ray& ray, int from = 0, int to = 1000) {
   Cells cells;
@@ -174,7 +170,7 @@ TEST(Occupancy, DrawsTheWallsOfARoomAndNothingElse) {
 TEST(Occupancy, GivesTheSameBytesInAnyOrderOfWork) {
   const auto scans = room(50);
   EXPECT_EQ(to_bytes(occupancy(scans, options, in_order)),
-            to_bytes(occupancy(scans, options, backwards)));
+            to_bytes(occupancy(scans, options, parallel::backwards)));
 }
 
 /// The second way: every scan's cells as sets, cell by cell.
@@ -232,7 +228,7 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
   trajectory.stamps = {0, 1};
   trajectory.T_world_frame = {{exp_rotation({0, 0, M_PI / 2}), {3.01, 4.01, 0}},
                               {exp_rotation({0, 0, M_PI / 2}), {4.01, 4.01, 0}}};
-  const auto map = StepRun(*plumb_module())
+  const auto map = StepUnderTest(*plumb_module())
                        .each<Frame>("frames", {frame, frame})
                        .with("trajectory", trajectory)
                        .run<GridMap>("map", context);
@@ -241,7 +237,7 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
   EXPECT_LT(at(map, 4.02, 4.52), 0);
   EXPECT_EQ(context.counts["cells occupied"], 2u);
   trajectory.stamps.pop_back();
-  EXPECT_THROW(StepRun(*plumb_module())
+  EXPECT_THROW(StepUnderTest(*plumb_module())
                    .each<Frame>("frames", {frame, frame})
                    .with("trajectory", trajectory)
                    .run<GridMap>("map", context),
@@ -249,4 +245,4 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 
 /// A ray in the plane, in units of cells: cell (c, r) covers [c, c+1) x [r, r+1). Coordinates are
 /// not negative.
@@ -41,4 +41,4 @@ void traverse(const Ray& ray, std::int32_t rows_from, std::int32_t rows_to, Run&
   }
 }
 
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid

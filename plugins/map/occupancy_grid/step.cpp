@@ -1,9 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "occupancy.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::map_occupancy_grid {
 namespace {
 
 struct OccupancyGrid : WholeStep {
@@ -47,15 +50,14 @@ struct OccupancyGrid : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
     if (frames != in.trajectory->size())
-      throw Error("there are " + std::to_string(frames) + " frames but " +
-                  std::to_string(in.trajectory->size()) +
-                  " poses in the trajectory; wire the trajectory of these frames");
+      throw Error("got " + counted(frames, "frames") + " but " +
+                  counted(in.trajectory->size(), "poses") +
+                  " in the trajectory; wire the trajectory of these frames");
     std::vector<PlacedScan> scans(frames);
     context.parallel(frames, [&](std::size_t k) {
       scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);
     });
-    Out out{occupancy(scans, params,
-                      [&](std::size_t n, const auto& body) { context.parallel(n, body); })};
+    Out out{occupancy(scans, params, parallel::on(context))};
     const auto seen = [&](auto test) {
       return static_cast<std::uint64_t>(std::ranges::count_if(out.map.log_odds, test));
     };
@@ -66,6 +68,6 @@ struct OccupancyGrid : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::map_occupancy_grid
 
-PLUMB_MODULE(plumb::OccupancyGrid)
+PLUMB_MODULE(plumb::map_occupancy_grid::OccupancyGrid)

@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #endif
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -235,4 +235,4 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> mutual_nearest(std::span<co
 }
 #endif
 
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

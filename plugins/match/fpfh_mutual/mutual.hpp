@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 
 /// Pairs (i, j) such that b_j is the nearest to a_i among all b, and a_i the nearest to b_j among
 /// all a; in ascending order of i. `a` and `b` hold one vector of length `dimension` after the
@@ -21,4 +21,4 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> mutual_nearest(std::span<co
 std::vector<std::pair<std::uint32_t, std::uint32_t>> mutual_nearest_plainly(
     std::span<const float> a, std::span<const float> b, std::size_t dimension);
 
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

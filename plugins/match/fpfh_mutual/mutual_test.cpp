@@ -8,7 +8,7 @@
 
 #include "plumb/plugin/context.hpp"
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 using testing::ElementsAre;
@@ -90,4 +90,4 @@ TEST(MutualNearest, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 constexpr std::size_t sample = 1024;  // vectors of each set that the axes are taken from
@@ -132,4 +132,4 @@ void Panels::shorten(std::size_t place, double squared_distance) {
   reach[panel] = *std::max_element(&limits[panel * width_], &limits[panel * width_] + width_);
 }
 
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

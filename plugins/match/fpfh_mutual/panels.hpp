@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 
 /// A turn of the axes (and a shift) after which the first coordinates tell the most: principal
 /// axes. Distances stay what they are.
@@ -55,4 +55,4 @@ class Panels {
   std::vector<float> values_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

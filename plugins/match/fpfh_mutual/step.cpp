@@ -1,8 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "mutual.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 /// Both ends of each pair, and whether either lies at its cloud's border.
@@ -56,6 +58,6 @@ struct MatchFpfhMutual : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual
 
-PLUMB_MODULE(plumb::MatchFpfhMutual)
+PLUMB_MODULE(plumb::match_fpfh_mutual::MatchFpfhMutual)

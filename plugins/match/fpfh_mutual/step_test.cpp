@@ -1,6 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/step_testing.hpp"
 
-namespace plumb {
+namespace plumb::match_fpfh_mutual {
 namespace {
 
 /// Keypoints at x = 0, 1, 2, ... with one number each.
@@ -18,7 +20,7 @@ Features features(std::vector<float> numbers, std::vector<std::uint8_t> at_borde
 
 TEST(MatchFpfhMutualStep, PairsPointsWithAllThatIsKnownOfThem) {
   TestContext context;
-  const auto matches = StepRun(*plumb_module())
+  const auto matches = StepUnderTest(*plumb_module())
                            .over("edges")
                            .ends("features", features({10, 20, 30}, {0, 1, 0}),
                                  features({31, 11, 12, 19}, {0, 0, 0, 0}))
@@ -37,7 +39,7 @@ TEST(MatchFpfhMutualStep, PairsPointsWithAllThatIsKnownOfThem) {
 
 TEST(MatchFpfhMutualStep, FindsNothingWhereOneSideIsEmpty) {
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.over("edges").ends("features", features({1}, {0}), Features());
   EXPECT_EQ(step.run<Matches>("matches", context).size(), 0u);
 }
@@ -47,10 +49,10 @@ TEST(MatchFpfhMutualStep, RefusesFeaturesOfDifferentLength) {
   other.dimension = 2;
   other.points.resize(1);
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.over("edges").ends("features", features({1}, {0}), other);
   EXPECT_THROW(step.run<Matches>("matches", context), Error);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_fpfh_mutual

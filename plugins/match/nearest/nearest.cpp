@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-namespace plumb {
+#include "shared/selection/evenly.hpp"
+
+namespace plumb::match_nearest {
 namespace {
 
 /// Indices of i's points that lie in j's box, made wider by `margin`; evenly thinned to `most`.
@@ -23,8 +25,9 @@ std::vector<std::uint32_t> near_box(const Cloud& cloud, const Motion& j_from_i, 
              (c <= high.z());
   }
   if (most && count > *most) {
-    for (std::uint64_t n = 0; n < *most; ++n) inside[n] = inside[n * count / *most];
-    count = *most;
+    const auto chosen = selection::evenly(count, *most);
+    for (std::size_t n = 0; n < chosen.size(); ++n) inside[n] = inside[chosen[n]];
+    count = chosen.size();
   }
   inside.resize(count);
   return inside;
@@ -78,4 +81,4 @@ Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
   return matches;
 }
 
-}  // namespace plumb
+}  // namespace plumb::match_nearest

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 
 struct NearestOptions {
   double max_correspondence_distance = 1;  ///< [m] farthest that a pair may be apart
@@ -23,7 +23,7 @@ struct NearestOptions {
 /// box are never asked. With `max_points`, evenly spaced ones of the rest are. Fills p, q, their
 /// indices, weights 1, and normal_q when to_plane; `found` counts the pairs before any is dropped
 /// for its normals: one that is 0, hence unknown, gives no plane and no angle. Source:
-/// [Tang2024] 2.3.2.
+/// [Tang2024] 2.3.2; the plane [Chen1992], the bounds on points and angles are ours.
 ///
 /// With `both_ways` j's points ask as well, half as many each way with `max_points`: what is wrong
 /// with the nearest points of one side alone (a cloud is seen from one end of its path, and its
@@ -31,4 +31,4 @@ struct NearestOptions {
 Matches nearest_pairs(const Segment& i, const Segment& j, const Pose& T_i_j,
                       const NearestOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::match_nearest

@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 namespace {
 
 Segment segment_of(Cloud cloud) {
@@ -226,10 +227,10 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
   Cloud with = random_cloud(20, 5, 1);
   give_normals(with, {0, 0, 1});
   const auto refused = [&](bool both) {
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with))
-        .at("poses", Pose());
+        .part("poses", Pose());
     step.set("metric", std::string("plane")).set("both_ways", both);
     TestContext context;
     try {
@@ -247,10 +248,10 @@ TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
 TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
   const Segment bare = segment_of(random_cloud(20, 5, 1));
   const auto refusal = [&](const char* parameter, ParameterValue value) -> std::string {
-    StepRun step(*plumb_module());
+    StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", bare, bare)
-        .at("poses", Pose())
+        .part("poses", Pose())
         .set(parameter, std::move(value));
     TestContext context;
     try {
@@ -266,4 +267,4 @@ TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_nearest

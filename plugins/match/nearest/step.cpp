@@ -1,8 +1,10 @@
 
+#include "plumb/slam/step.hpp"
+
 #include "nearest.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::match_nearest {
 namespace {
 
 enum class Metric { point, plane };
@@ -28,7 +30,7 @@ struct Nearest : EdgeStep {
   static void describe(Declaration<Nearest>& is) {
     is.name("match.nearest").version(1);
     is.summary("Matches each point of one segment with the nearest point of the other.");
-    is.source("[Tang2024] 2.3.2");
+    is.source("[Tang2024] 2.3.2; [Chen1992] for metric plane");
     is.input("edges", &In::edges, "pairs of segments");
     is.input("segments", &In::segments,
              "the clouds; with normals for 'metric: plane' and 'max_normal_angle'");
@@ -75,13 +77,13 @@ struct Nearest : EdgeStep {
         nearest_pairs(i, j, in.poses.T_i_j,
                       {params.max_correspondence_distance, params.metric == Metric::plane,
                        params.max_points, params.max_normal_angle, params.both_ways});
-    context.count("pairs dropped for their normals", matches.found - matches.size());
+    context.count("pairs dropped for unlike normals", matches.found - matches.size());
     if (matches.found == 0) context.count("edges without a pair", 1);
     return {std::move(matches)};
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::match_nearest
 
-PLUMB_MODULE(plumb::Nearest)
+PLUMB_MODULE(plumb::match_nearest::Nearest)

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 
 std::vector<Wall> read_plan(const std::filesystem::path& file) {
   const io::FileBytes bytes(file);
@@ -27,7 +28,7 @@ std::vector<Wall> read_plan(const std::filesystem::path& file) {
     if (have == 0) continue;
     if (have != v.size())
       io::refuse(file, lines.number(),
-                 "expected a wall 'x1 y1 x2 y2', found " + std::to_string(have) + " numbers");
+                 "expected a wall 'x1 y1 x2 y2', found " + counted(have, "numbers"));
     walls.push_back({{v[0], v[1]}, {v[2], v[3]}});
   }
   if (walls.empty()) io::refuse(file, "holds no wall: give lines 'x1 y1 x2 y2' in metres");
@@ -93,4 +94,4 @@ double WallTree::distance_to(const Eigen::Vector2d& p) const {
   return best;
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

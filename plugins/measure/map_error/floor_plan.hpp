@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace plumb {
+namespace plumb::measure_map_error {
 
 /// A straight piece of wall [m].
 struct Wall {
@@ -40,4 +40,4 @@ class WallTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-namespace plumb {
+namespace plumb::measure_map_error {
 namespace {
 
 /// Points in square buckets of edge `size`: is one of them nearer than `size` to a place?
@@ -48,12 +48,7 @@ double covered(const std::vector<Wall>& walls, const Buckets& cells, double step
 
 }  // namespace
 
-Eigen::Vector2d PlanarMotion::operator*(const Eigen::Vector2d& p) const {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x() - s * p.y() + shift.x(), s * p.x() + c * p.y() + shift.y()};
-}
-
-PlanarMotion planar_alignment(const PosePairs& pairs) {
+PlanarPose planar_alignment(const PosePairs& pairs) {
   if (pairs.size() == 0) return {};
   const auto n = static_cast<double>(pairs.size());
   Eigen::Vector2d mean_a = Eigen::Vector2d::Zero(), mean_b = mean_a;
@@ -73,16 +68,15 @@ PlanarMotion planar_alignment(const PosePairs& pairs) {
     heading_sine += std::sin(turn);
     heading_cosine += std::cos(turn);
   }
-  PlanarMotion motion;
-  motion.angle =
-      spread > 1e-3 ? std::atan2(sine, cosine) : std::atan2(heading_sine, heading_cosine);
-  motion.shift = mean_b - motion * mean_a;
+  PlanarPose motion;
+  motion.yaw = spread > 1e-3 ? std::atan2(sine, cosine) : std::atan2(heading_sine, heading_cosine);
+  const Eigen::Vector2d shift = mean_b - motion * mean_a;
+  motion.x = shift.x(), motion.y = shift.y();
   return motion;
 }
 
-MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
-                   const PlanarMotion& T_plan_map, float threshold, double max_wall_distance,
-                   const ParallelLoop& parallel) {
+MapError map_error(const GridMap& map, const std::vector<Wall>& walls, const PlanarPose& T_plan_map,
+                   float threshold, double max_wall_distance, const parallel::Loop& parallel) {
   std::vector<Eigen::Vector2d> cells;
   for (std::size_t r = 0; r < map.rows; ++r)
     for (std::size_t c = 0; c < map.columns; ++c)
@@ -115,4 +109,4 @@ MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
   return error;
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

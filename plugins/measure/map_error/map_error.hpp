@@ -2,22 +2,19 @@
 /// How far the walls of a map are from the true ones.
 
 #include "floor_plan.hpp"
-#include "plumb/data/trajectory_error.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/trajectory_error.hpp"
+#include "plumb/slam/values.hpp"
+#include "shared/parallel/loop.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 
-/// A rigid motion of the plane.
-struct PlanarMotion {
-  double angle = 0;  ///< [rad]
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  Eigen::Vector2d operator*(const Eigen::Vector2d& p) const;
-};
+using planar::PlanarPose;
 
 /// Aligns the estimated positions with the true ones, x and y only, with the least sum of squares;
 /// where they all lie at one place (within a millimetre) the mean difference of the headings gives
 /// the angle. The identity for no pairs.
-PlanarMotion planar_alignment(const PosePairs& pairs);
+PlanarPose planar_alignment(const PosePairs& pairs);
 
 struct MapError {
   std::size_t occupied = 0;  ///< cells
@@ -28,14 +25,9 @@ struct MapError {
       0;  ///< share of the walls' length that has an occupied cell nearer than `max_wall_distance`
 };
 
-/// Runs body(k) for k = 0 .. n-1, in any order.
-using ParallelLoop =
-    std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
 /// Compares the cells whose log odds are above `threshold`, moved by `T_plan_map`, with the walls.
 /// NaN for no such cell.
-MapError map_error(const GridMap& map, const std::vector<Wall>& walls,
-                   const PlanarMotion& T_plan_map, float threshold, double max_wall_distance,
-                   const ParallelLoop& parallel);
+MapError map_error(const GridMap& map, const std::vector<Wall>& walls, const PlanarPose& T_plan_map,
+                   float threshold, double max_wall_distance, const parallel::Loop& parallel);
 
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

@@ -5,18 +5,18 @@
 #include <numbers>
 
 #include "plumb/data/io/file_testing.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/step.hpp"
+#include "plumb/slam/types.hpp"
+#include "shared/parallel/loop_testing.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 namespace {
 
+using parallel::in_order;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-void in_order(std::size_t n, const std::function<void(std::size_t)>& body) {
-  for (std::size_t k = 0; k < n; ++k) body(k);
-}
 
 std::vector<Wall> some_walls(std::size_t count) {
   std::vector<Wall> walls;
@@ -106,9 +106,9 @@ TEST(PlanarAlignment, FindsTheMotionOfAPathOfALineAndOfAPlace) {
         pairs.estimate.push_back(at);
         pairs.truth.push_back(motion * at);
       }
-      const PlanarMotion found = planar_alignment(pairs);
-      EXPECT_NEAR(std::remainder(found.angle - 2.5, 2 * std::numbers::pi), 0, 1e-9);
-      EXPECT_LT((found.shift - Eigen::Vector2d(7, -3)).norm(), 1e-9);
+      const PlanarPose found = planar_alignment(pairs);
+      EXPECT_NEAR(std::remainder(found.yaw - 2.5, 2 * std::numbers::pi), 0, 1e-9);
+      EXPECT_LT((Eigen::Vector2d(found.x, found.y) - Eigen::Vector2d(7, -3)).norm(), 1e-9);
     }
   }
 }
@@ -122,7 +122,7 @@ TEST(MeasureMapError, AlignsTheMapWithThePlanByTheTrajectory) {
              b = T_plan_map * Eigen::Vector3d(4, 0.55, 0);
   std::string plan = "# one wall\n";
   for (const double v : {a.x(), a.y(), b.x(), b.y()}) plan += std::to_string(v) + " ";
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("map", wall_map(0.55)).with("trajectory", walk());
   step.set("plan", folder.write("plan.txt", plan).string())
       .set("truth", folder.write("truth.tum", tum_text(truth)).string());
@@ -136,13 +136,15 @@ TEST(MeasureMapError, AlignsTheMapWithThePlanByTheTrajectory) {
 
 TEST(MeasureMapError, SaysThatThereIsNoPlanOrNoWall) {
   TestContext context;
-  EXPECT_THAT(
-      StepRun(*plumb_module()).with("map", wall_map(0.55)).run<Metrics>("metrics", context).notes,
-      ElementsAre(HasSubstr("no plan was given")));
+  EXPECT_THAT(StepUnderTest(*plumb_module())
+                  .with("map", wall_map(0.55))
+                  .run<Metrics>("metrics", context)
+                  .notes,
+              ElementsAre(HasSubstr("no plan was given")));
   const io::TestFolder folder;
   auto empty = wall_map(0.55);
   empty.log_odds.assign(empty.log_odds.size(), 0);
-  EXPECT_THAT(StepRun(*plumb_module())
+  EXPECT_THAT(StepUnderTest(*plumb_module())
                   .with("map", empty)
                   .set("plan", folder.write("p", "0 0 1 1\n").string())
                   .run<Metrics>("metrics", context)
@@ -154,7 +156,7 @@ TEST(MeasureMapError, RefusesATruthThatDoesNotFitAndAPlanThatIsNone) {
   const io::TestFolder folder;
   const auto plan = folder.write("plan.txt", "0 0 1 1\n").string();
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("map", wall_map(0.55))
       .set("plan", plan)
       .set("truth", folder.write("t.tum", "500 0 0 0 0 0 0 1\n").string());
@@ -173,4 +175,4 @@ TEST(MeasureMapError, RefusesATruthThatDoesNotFitAndAPlanThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_map_error

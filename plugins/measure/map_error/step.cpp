@@ -1,10 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <cmath>
 
 #include "map_error.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
-namespace plumb {
+namespace plumb::measure_map_error {
 namespace {
 
 struct MeasureMapError : WholeStep {
@@ -23,7 +25,9 @@ struct MeasureMapError : WholeStep {
   };
 
   static void describe(Declaration<MeasureMapError>& is) {
-    is.name("measure.map_error").version(1).source("[Zhang2023] 3");
+    is.name("measure.map_error")
+        .version(1)
+        .source("[Zhang2023] 3; the alignment and what counts as accurate are ours");
     is.summary("Measures the distance of a map's walls from those of the true floor plan.");
     is.input("map", &In::map, "the map");
     is.optional_input(
@@ -57,7 +61,7 @@ struct MeasureMapError : WholeStep {
       return out;
     }
     const auto walls = read_plan(*params.plan);
-    PlanarMotion T_plan_map;
+    PlanarPose T_plan_map;
     if (params.truth) {
       if (!in.trajectory)
         throw Error(
@@ -74,9 +78,8 @@ struct MeasureMapError : WholeStep {
       T_plan_map = planar_alignment(pairs);
     }
     const auto threshold = static_cast<float>(std::log(params.occupied / (1 - params.occupied)));
-    const MapError error =
-        map_error(*in.map, walls, T_plan_map, threshold, params.max_wall_distance,
-                  [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    const MapError error = map_error(*in.map, walls, T_plan_map, threshold,
+                                     params.max_wall_distance, parallel::on(context));
     if (error.occupied == 0) {
       out.metrics.notes.push_back("the map has no occupied cell, so it has no error");
       return out;
@@ -93,6 +96,6 @@ struct MeasureMapError : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_map_error
 
-PLUMB_MODULE(plumb::MeasureMapError)
+PLUMB_MODULE(plumb::measure_map_error::MeasureMapError)

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 
 IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
                          double max_correspondence_distance,
@@ -37,4 +37,4 @@ double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, cons
   return std::sqrt(squares / static_cast<double>(pairs.size()));
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 
 /// Pairs of nearest points: indices into i's and j's clouds.
 using IndexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -20,7 +20,7 @@ IndexPairs nearest_pairs(const Segment& i, const Segment& j, const Pose& T_j_i,
                          std::optional<std::uint32_t> max_points);
 
 /// Root of the mean squared distance [m] of the pairs under `T_j_i`; NaN for no pairs. Source:
-/// [Tang2024] eq. 3
+/// [Tang2024] eq. 3.
 double rmse_of(const IndexPairs& pairs, const Segment& i, const Segment& j, const Pose& T_j_i);
 
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse

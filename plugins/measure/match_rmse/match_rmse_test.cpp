@@ -6,10 +6,11 @@
 
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 namespace {
 
 Segment random_segment(std::uint64_t seed, int points) {
@@ -120,4 +121,4 @@ TEST(MatchRmse, SaysHowManyEdgesHaveNoPairs) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse

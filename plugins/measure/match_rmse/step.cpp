@@ -1,11 +1,14 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "match_rmse.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::measure_match_rmse {
 namespace {
 
 struct MatchRmse : WholeStep {
@@ -30,7 +33,7 @@ struct MatchRmse : WholeStep {
         .summary(
             "Measures the RMSE of nearest-point matches between neighbouring segments, averaged "
             "over all edges.")
-        .source("[Tang2024] eq. 3, 3.3");
+        .source("[Tang2024] eq. 3, 3.3; pairs found once are ours");
     is.input("edges", &In::edges, "pairs of segments that are compared");
     is.input("segments", &In::segments, "their clouds, downsampled as they are to be compared");
     is.input("poses", &In::poses, "poses of the segments; one number for each, by its label");
@@ -80,8 +83,8 @@ struct MatchRmse : WholeStep {
     const std::size_t segments = in.segments.size();
     const auto check = [&](const Poses& poses) {
       if (poses.size() != segments)
-        throw Error("there are " + std::to_string(poses.size()) + " poses but " +
-                    std::to_string(segments) + " segments; wire poses of the same segments");
+        throw Error("got " + counted(poses.size(), "poses") + " but " +
+                    counted(segments, "segments") + "; wire poses of the same segments");
     };
     for (const auto& [label, poses] : in.poses) check(*poses);
     if (in.pairs) check(*in.pairs);
@@ -125,6 +128,6 @@ struct MatchRmse : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_match_rmse
 
-PLUMB_MODULE(plumb::MatchRmse)
+PLUMB_MODULE(plumb::measure_match_rmse::MatchRmse)

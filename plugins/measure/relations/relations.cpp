@@ -7,7 +7,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::measure_relations {
 namespace {
 
 Spread spread_of(const std::vector<double>& values) {
@@ -99,4 +99,4 @@ RelationErrors relation_errors(const std::vector<TrueRelation>& relations,
           spread_of(squared(translation)), spread_of(squared(rotation))};
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_relations

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::measure_relations {
 
 /// The true pose at `to` in the coordinates of that at `from`.
 struct TrueRelation {
@@ -52,4 +52,4 @@ struct RelationErrors {
 RelationErrors relation_errors(const std::vector<TrueRelation>& relations,
                                const Trajectory& trajectory, double tolerance);
 
-}  // namespace plumb
+}  // namespace plumb::measure_relations

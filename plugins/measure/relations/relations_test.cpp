@@ -6,8 +6,10 @@
 
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
+#include "plumb/slam/types.hpp"
 
-namespace plumb {
+namespace plumb::measure_relations {
 namespace {
 
 using testing::ElementsAre;
@@ -29,7 +31,7 @@ Trajectory trip(std::size_t frames) {
 std::map<std::string, double> measured(const Trajectory& trajectory, const std::string& relations,
                                        TestContext& context) {
   const io::TestFolder folder;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.add("trajectories", "after", trajectory)
       .set("relations", folder.write("r.relations", relations).string());
   std::map<std::string, double> numbers;
@@ -117,8 +119,9 @@ TEST(MeasureRelations, LeavesOutMomentsWithoutAFrameAndSaysSo) {
 
 TEST(MeasureRelations, SaysThatThereAreNone) {
   TestContext context;
-  const auto metrics =
-      StepRun(*plumb_module()).add("trajectories", "", trip(3)).run<Metrics>("metrics", context);
+  const auto metrics = StepUnderTest(*plumb_module())
+                           .add("trajectories", "", trip(3))
+                           .run<Metrics>("metrics", context);
   EXPECT_TRUE(metrics.numbers.empty());
   EXPECT_THAT(metrics.notes, ElementsAre(HasSubstr("no relations were given")));
 }
@@ -136,4 +139,4 @@ TEST(MeasureRelations, RefusesAFileThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_relations

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "relations.hpp"
 
-namespace plumb {
+namespace plumb::measure_relations {
 namespace {
 
 struct MeasureRelations : WholeStep {
@@ -75,6 +77,6 @@ struct MeasureRelations : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_relations
 
-PLUMB_MODULE(plumb::MeasureRelations)
+PLUMB_MODULE(plumb::measure_relations::MeasureRelations)

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace plumb {
+namespace plumb::measure_trajectory {
 
 Eigen::Vector2d mean_displacement(const PosePairs& pairs) {
   if (pairs.size() == 0) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -15,4 +15,4 @@ Eigen::Vector2d mean_displacement(const PosePairs& pairs) {
   return sum / static_cast<double>(pairs.size());
 }
 
-}  // namespace plumb
+}  // namespace plumb::measure_trajectory

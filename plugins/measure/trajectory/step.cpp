@@ -1,11 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <filesystem>
 
 #include "displacement.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/data/trajectory_error.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/trajectory_error.hpp"
 
-namespace plumb {
+namespace plumb::measure_trajectory {
 namespace {
 
 struct MeasureTrajectory : WholeStep {
@@ -26,7 +28,7 @@ struct MeasureTrajectory : WholeStep {
         .version(2)
         .summary(
             "Measures the absolute and relative pose errors of trajectories against a true one.")
-        .source("Sturm et al. 2012");
+        .source("[Sturm2012]; [Zhang2023] 3 for the displacement");
     is.input("trajectories", &In::trajectories,
              "any number of trajectories; numbers are named after the label");
     is.output("metrics", &Out::metrics,
@@ -55,9 +57,10 @@ struct MeasureTrajectory : WholeStep {
       const PosePairs pairs = pair_by_stamp(*trajectory, truth, params.tolerance);
       const std::string of = label.empty() ? "" : label + ".";
       if (pairs.size() < 3) {
-        const std::string sentence = "only " + std::to_string(pairs.size()) + " poses of " +
+        const std::string sentence = "poses of " +
                                      (label.empty() ? "the trajectory" : "'" + label + "'") +
-                                     " have a stamp of the truth; the error needs 3";
+                                     " with a stamp of the truth: only " +
+                                     std::to_string(pairs.size()) + "; the error needs 3";
         out.metrics.notes.push_back(sentence);
         context.warn(sentence + "; look whether both files count the same seconds");
         continue;
@@ -77,6 +80,6 @@ struct MeasureTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_trajectory
 
-PLUMB_MODULE(plumb::MeasureTrajectory)
+PLUMB_MODULE(plumb::measure_trajectory::MeasureTrajectory)

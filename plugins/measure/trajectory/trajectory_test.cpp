@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::measure_trajectory {
 namespace {
 
 Trajectory curve(std::size_t frames, double first_stamp = 100) {
@@ -95,8 +96,10 @@ TEST_F(MeasureTrajectoryTest, SaysThatThereIsNoTruth) {
 TEST_F(MeasureTrajectoryTest, SaysThatStampsDoNotMeet) {
   const auto metrics = measured({{"odd", curve(50, 5000)}});
   EXPECT_TRUE(metrics.numbers.empty());
-  EXPECT_THAT(context_.warnings, testing::ElementsAre(testing::HasSubstr("only 0 poses of 'odd'")));
+  EXPECT_THAT(
+      context_.warnings,
+      testing::ElementsAre(testing::HasSubstr("poses of 'odd' with a stamp of the truth: only 0")));
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::measure_trajectory

@@ -1,7 +1,9 @@
-#include "closer.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "plumb/plugin/module.hpp"
+#include "shared/point_pairs/rigid_fit.hpp"
+
+namespace plumb::prune_distance {
 namespace {
 
 struct DistanceGate : EdgeStep {
@@ -48,13 +50,13 @@ struct DistanceGate : EdgeStep {
     double gate = params.max_correspondence_distance;
     if (params.loop_margin && in.edges.edge.kind == EdgeKind::loop)
       gate = in.edges.edge.centroid_distance + *params.loop_margin;
-    const auto kept = closer(*in.matches, in.poses.T_i_j, gate);
+    const auto kept = point_pairs::agreeing(in.matches->q, in.matches->p, in.poses.T_i_j, gate);
     context.count("pairs dropped", in.matches->size() - kept.size());
     return {select(*in.matches, kept)};
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_distance
 
-PLUMB_MODULE(plumb::DistanceGate)
+PLUMB_MODULE(plumb::prune_distance::DistanceGate)

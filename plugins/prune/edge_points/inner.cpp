@@ -2,7 +2,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::prune_edge_points {
 
 std::vector<std::uint32_t> inner(const Matches& matches) {
   if (matches.at_border.size() != matches.size())
@@ -15,4 +15,4 @@ std::vector<std::uint32_t> inner(const Matches& matches) {
   return kept;
 }
 
-}  // namespace plumb
+}  // namespace plumb::prune_edge_points

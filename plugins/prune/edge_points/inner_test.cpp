@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::prune_edge_points {
 namespace {
 
 Matches four_pairs() {
@@ -21,7 +22,7 @@ Matches four_pairs() {
 TEST(EdgePoints, DropsPairsWithAPointAtTheBorder) {
   TestContext context;
   const auto kept =
-      StepRun(*plumb_module()).with("matches", four_pairs()).run<Matches>("matches", context);
+      StepUnderTest(*plumb_module()).with("matches", four_pairs()).run<Matches>("matches", context);
   ASSERT_EQ(kept.size(), 2u);
   EXPECT_EQ(kept.p[0].x(), 0);
   EXPECT_EQ(kept.p[1].x(), 2);
@@ -43,4 +44,4 @@ TEST(EdgePoints, RefusesPairsWithoutBorderMarks) {
 TEST(EdgePoints, LetsNoPairsThrough) { EXPECT_TRUE(inner(Matches()).empty()); }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_edge_points

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "inner.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::prune_edge_points {
 namespace {
 
 struct EdgePoints : EdgeStep {
@@ -29,6 +31,6 @@ struct EdgePoints : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_edge_points
 
-PLUMB_MODULE(plumb::EdgePoints)
+PLUMB_MODULE(plumb::prune_edge_points::EdgePoints)

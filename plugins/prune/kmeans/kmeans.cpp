@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 namespace {
 
 /// k-means++: each next seed is drawn with a chance that goes with its squared distance to the
@@ -97,4 +97,4 @@ std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
   return members;
 }
 
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans

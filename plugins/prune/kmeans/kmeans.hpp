@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/geometry/pose.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 
 struct Clusters {
   std::vector<std::uint32_t> of;  ///< of each vector: its cluster
@@ -35,4 +35,4 @@ std::vector<std::uint32_t> best_cluster(const Clusters& clusters,
                                         const std::vector<Vector6d>& vectors, Keep keep,
                                         double min_spread, std::uint32_t min_pairs);
 
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans

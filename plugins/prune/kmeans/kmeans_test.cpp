@@ -7,8 +7,9 @@
 
 #include "motion_vectors.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 namespace {
 
 double normal(Random& random) {
@@ -50,9 +51,9 @@ double share_right(const Matches& kept, unsigned right) {
 const Pose drift(exp_rotation({0, 0, 0.017}), {1.0, -0.6, 0.2});
 
 Matches run(const Matches& matches, TestContext& context, const std::string& keep = "largest") {
-  return StepRun(*plumb_module())
+  return StepUnderTest(*plumb_module())
       .with("matches", matches)
-      .at("poses", Pose())
+      .part("poses", Pose())
       .set("keep", keep)
       .run<Matches>("matches", context);
 }
@@ -152,9 +153,9 @@ TEST(KMeans, WithMotionsTellsWallsApartThatDisplacementsDoNot) {
   m.normal_q.assign(40, Eigen::Vector3f::UnitX());
   for (int k = 30; k < 40; ++k) m.normal_q[k] = Eigen::Vector3f::UnitY();
   TestContext context;
-  const auto kept = StepRun(*plumb_module())
+  const auto kept = StepUnderTest(*plumb_module())
                         .with("matches", m)
-                        .at("poses", Pose())
+                        .part("poses", Pose())
                         .set("vector", std::string("motion"))
                         .set("pairs_per_cluster", std::int64_t(20))
                         .run<Matches>("matches", context);
@@ -163,4 +164,4 @@ TEST(KMeans, WithMotionsTellsWallsApartThatDisplacementsDoNot) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans

@@ -2,7 +2,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 
 std::vector<Vector6d> displacements(const Matches& matches, const Pose& T_i_j) {
   const Eigen::Matrix3d r = T_i_j.matrix();
@@ -27,4 +27,4 @@ std::vector<Vector6d> motions(const Matches& matches, const Pose& T_i_j, double 
   return vectors;
 }
 
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans

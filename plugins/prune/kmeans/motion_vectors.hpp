@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 
 /// What p - T_i_j q is, in i's coordinates [m]; the last three numbers are 0. Pairs that imply the
 /// same translation have the same.
@@ -15,4 +15,4 @@ std::vector<Vector6d> displacements(const Matches& matches, const Pose& T_i_j);
 /// [rad] times `lever` [m]. Throws Error when there are pairs without normals.
 std::vector<Vector6d> motions(const Matches& matches, const Pose& T_i_j, double lever);
 
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans

@@ -1,10 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
 #include "kmeans.hpp"
 #include "motion_vectors.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::prune_kmeans {
 namespace {
 
 enum class Vector { displacement, motion };
@@ -80,6 +82,6 @@ struct KMeans : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_kmeans
 
-PLUMB_MODULE(plumb::KMeans)
+PLUMB_MODULE(plumb::prune_kmeans::KMeans)

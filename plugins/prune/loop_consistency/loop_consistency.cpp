@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 namespace {
 
 /// What two loops near each other say of each other.
@@ -166,4 +166,4 @@ std::vector<LoopVerdict> judge_loops(const std::vector<Loop>& loops, const Poses
   return Judge(loops, poses, options).run();
 }
 
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 
 /// How far the poses may have drifted between two segments with path L between them. Errors are
 /// slow: over `correlation_length` they add up in proportion to the path, beyond it with its root.
@@ -49,4 +49,4 @@ struct ConsistencyOptions {
 std::vector<LoopVerdict> judge_loops(const std::vector<Loop>& loops, const Poses& poses,
                                      const ConsistencyOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <random>
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/values.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/step.hpp"
+#include "plumb/slam/values.hpp"
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 namespace {
 
 Eigen::Vector3d gauss3(std::mt19937& random, double sigma) {
@@ -272,8 +273,8 @@ Registered registered(const std::vector<Loop>& loops, std::uint32_t segments) {
   return all;
 }
 
-StepRun pruning(const Registered& all, const Poses& poses) {
-  StepRun step(*plumb_module());
+StepUnderTest pruning(const Registered& all, const Poses& poses) {
+  StepUnderTest step(*plumb_module());
   step.each("registrations", all.registrations, all.edges).with("poses", poses);
   return step;
 }
@@ -294,8 +295,8 @@ TEST(PruneLoopConsistency, GivesTheKeptLoopsAndAReasonForEach) {
   TestContext context;
   const auto constraints = pruning(all, drive.drifted).run<Constraints>("constraints", context);
   EXPECT_EQ(context.counts["loops kept"], loops.size() - 3);
-  EXPECT_EQ(context.counts["loops dropped: no drift explains them"], 1u);
-  EXPECT_EQ(context.counts["loops dropped: other loops contradict them"], 1u);
+  EXPECT_EQ(context.counts["loops dropped: explained by no drift"], 1u);
+  EXPECT_EQ(context.counts["loops dropped: contradicted by other loops"], 1u);
   EXPECT_EQ(context.counts["loops dropped: alone and far"], 0u);
   ASSERT_EQ(constraints.relative.size(), loops.size() - 3);
   EXPECT_FALSE(constraints.planar);
@@ -396,11 +397,10 @@ TEST(PruneLoopConsistency, RefusesPosesOfOtherSegments) {
         .run<Constraints>("constraints", context);
     FAIL() << "was not refused";
   } catch (const Error& e) {
-    EXPECT_STREQ(
-        e.what(),
-        "a loop names segment 48, but there are 40 poses: wire poses of the same segments");
+    EXPECT_STREQ(e.what(),
+                 "a loop names segment 48, but got 40 poses: wire poses of the same segments");
   }
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency

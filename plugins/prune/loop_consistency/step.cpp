@@ -1,12 +1,15 @@
+#include "plumb/slam/step.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "loop_consistency.hpp"
-#include "plumb/data/registration.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/registration.hpp"
 
-namespace plumb {
+namespace plumb::prune_loop_consistency {
 namespace {
 
 const char* reason(LoopVerdict verdict) {
@@ -96,7 +99,7 @@ struct PruneLoopConsistency : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const auto& edges = in.registrations.edges().list;
+    const auto& edges = edges_of(in.registrations).list;
     std::vector<Registration> registrations(in.registrations.size());
     context.parallel(registrations.size(),
                      [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
@@ -104,8 +107,8 @@ struct PruneLoopConsistency : WholeStep {
     std::vector<std::size_t> of;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       if (edges[k].j >= in.poses->size())
-        throw Error("a loop names segment " + std::to_string(edges[k].j) + ", but there are " +
-                    std::to_string(in.poses->size()) + " poses: wire poses of the same segments");
+        throw Error("a loop names segment " + std::to_string(edges[k].j) + ", but got " +
+                    counted(in.poses->size(), "poses") + ": wire poses of the same segments");
       if (!registrations[k].accepted) continue;
       loops.push_back({edges[k].i, edges[k].j, registrations[k].T_i_j, params.translation_sigma,
                        params.rotation_sigma});
@@ -146,8 +149,8 @@ struct PruneLoopConsistency : WholeStep {
                                    statuses[k] == "accepted" ? 1.0 : 0.0, statuses[k]});
     }
     context.count("loops kept", kept);
-    context.count("loops dropped: no drift explains them", odometry);
-    context.count("loops dropped: other loops contradict them", contradicted);
+    context.count("loops dropped: explained by no drift", odometry);
+    context.count("loops dropped: contradicted by other loops", contradicted);
     context.count("loops dropped: alone and far", alone);
     return out;
   }
@@ -169,6 +172,6 @@ struct PruneLoopConsistency : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_loop_consistency
 
-PLUMB_MODULE(plumb::PruneLoopConsistency)
+PLUMB_MODULE(plumb::prune_loop_consistency::PruneLoopConsistency)

@@ -1,34 +1,15 @@
 #include "ransac.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace plumb {
+#include "shared/point_pairs/rigid_fit.hpp"
+
+namespace plumb::prune_ransac {
 namespace {
 
 using Triple = std::array<std::uint32_t, 3>;
-
-template <class Indices>
-Pose fit(const Matches& matches, const Indices& indices) {
-  Eigen::Vector3d mean_p = Eigen::Vector3d::Zero(), mean_q = Eigen::Vector3d::Zero();
-  for (const auto k : indices) {
-    mean_p += matches.p[k].template cast<double>();
-    mean_q += matches.q[k].template cast<double>();
-  }
-  mean_p /= static_cast<double>(indices.size());
-  mean_q /= static_cast<double>(indices.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto k : indices)
-    spread += (matches.p[k].template cast<double>() - mean_p) *
-              (matches.q[k].template cast<double>() - mean_q).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d proper = Eigen::Matrix3d::Identity();
-  proper(2, 2) = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;
-  const Eigen::Matrix3d r = svd.matrixU() * proper * svd.matrixV().transpose();
-  return {r, mean_p - r * mean_q};
-}
 
 Triple three_of(std::uint32_t n, Random& random) {
   Triple t{random.below(n), random.below(n - 1), random.below(n - 2)};
@@ -52,15 +33,10 @@ bool alike(const Matches& m, const Triple& t, float max_correspondence_distance)
   return u.cross(v).norm() > 0.1f * u.norm() * v.norm();
 }
 
+/// The pairs that agree with a motion, in order.
 std::vector<std::uint32_t> agreeing(const Matches& m, const Pose& T_i_j,
                                     double max_correspondence_distance) {
-  const Motion i_from_j(T_i_j);
-  const auto squared_max =
-      static_cast<float>(max_correspondence_distance * max_correspondence_distance);
-  std::vector<std::uint32_t> inliers;
-  for (std::uint32_t k = 0; k < m.size(); ++k)
-    if ((m.p[k] - i_from_j * m.q[k]).squaredNorm() <= squared_max) inliers.push_back(k);
-  return inliers;
+  return point_pairs::agreeing(m.q, m.p, T_i_j, max_correspondence_distance);
 }
 
 double samples_wanted(std::size_t inliers, std::size_t pairs, double confidence) {
@@ -70,10 +46,6 @@ double samples_wanted(std::size_t inliers, std::size_t pairs, double confidence)
 
 }  // namespace
 
-Pose rigid_fit(const Matches& matches, const std::vector<std::uint32_t>& indices) {
-  return fit(matches, indices);
-}
-
 Consensus ransac(const Matches& matches, const RansacOptions& options, Random random) {
   Consensus best;
   if (matches.size() < 3) return best;
@@ -82,7 +54,7 @@ Consensus ransac(const Matches& matches, const RansacOptions& options, Random ra
   for (; best.samples < wanted && best.samples < options.max_iterations; ++best.samples) {
     const Triple triple = three_of(pairs, random);
     if (!alike(matches, triple, static_cast<float>(options.max_correspondence_distance))) continue;
-    const Pose T_i_j = fit(matches, triple);
+    const Pose T_i_j = point_pairs::rigid_fit(matches.q, matches.p, triple);
     auto inliers = agreeing(matches, T_i_j, options.max_correspondence_distance);
     if (inliers.size() < 3 || inliers.size() <= best.inliers.size()) continue;
     best.T_i_j = T_i_j;
@@ -90,7 +62,7 @@ Consensus ransac(const Matches& matches, const RansacOptions& options, Random ra
     wanted = samples_wanted(best.inliers.size(), pairs, options.confidence);
   }
   while (!best.inliers.empty()) {
-    const Pose finer = rigid_fit(matches, best.inliers);
+    const Pose finer = point_pairs::rigid_fit(matches.q, matches.p, best.inliers);
     auto inliers = agreeing(matches, finer, options.max_correspondence_distance);
     if (inliers.size() < best.inliers.size()) break;
     const bool grew = inliers.size() > best.inliers.size();
@@ -101,4 +73,4 @@ Consensus ransac(const Matches& matches, const RansacOptions& options, Random ra
   return best;
 }
 
-}  // namespace plumb
+}  // namespace plumb::prune_ransac

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::prune_ransac {
 
 struct RansacOptions {
   double max_correspondence_distance = 0.5;  ///< [m] an inlier has |p - T_i_j q| up to this
@@ -23,10 +23,6 @@ struct Consensus {
   std::uint32_t samples = 0;  ///< drawn
 };
 
-/// The motion T_i_j with the least sum of |p - T_i_j q|^2 over the pairs with the given indices
-/// (three or more, not in a line). Source: [Umeyama1991], without scale.
-Pose rigid_fit(const Matches& matches, const std::vector<std::uint32_t>& indices);
-
 /// Draws three pairs, drops them if their triangle's sides differ by more than 2
 /// max_correspondence_distance or it is too small to tell a rotation, else fits a motion and counts
 /// who agrees; the one with most (the first of equals) is fitted again to its inliers as long as
@@ -35,4 +31,4 @@ Pose rigid_fit(const Matches& matches, const std::vector<std::uint32_t>& indices
 /// gives the same result.
 Consensus ransac(const Matches& matches, const RansacOptions& options, Random random);
 
-}  // namespace plumb
+}  // namespace plumb::prune_ransac

@@ -2,11 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Geometry>
-
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::prune_ransac {
 namespace {
 
 Eigen::Vector3f in_cube(Random& random, float half) {
@@ -58,33 +57,8 @@ TEST(Ransac, FindsNothingWherePairsFitNoMotion) {
   EXPECT_TRUE(ransac(stretched, {0.1, 0.999, 2000}, Random(1)).inliers.empty());
 }
 
-TEST(Ransac, FitsAsUmeyamaDoes) {
-  const Matches m = planted(12, 0, 8);
-  std::vector<std::uint32_t> all(12);
-  Eigen::Matrix3Xd p(3, 12), q(3, 12);
-  for (int k = 0; k < 12; ++k) {
-    all[k] = static_cast<std::uint32_t>(k);
-    p.col(k) = m.p[k].cast<double>();
-    q.col(k) = m.q[k].cast<double>();
-  }
-  const Eigen::Matrix4d judge = Eigen::umeyama(q, p, false);
-  const Pose fitted = rigid_fit(m, all);
-  EXPECT_LT((fitted.matrix() - judge.topLeftCorner<3, 3>()).norm(), 1e-12);
-  EXPECT_LT((fitted.translation - judge.topRightCorner<3, 1>()).norm(), 1e-11);
-}
-
-TEST(Ransac, FitsARotationToPointsInAPlaneAndNoReflection) {
-  Matches m = planted(9, 0, 4);
-  for (std::size_t k = 0; k < m.size(); ++k) {
-    m.q[k].z() = 0;
-    m.p[k] = Motion(motion) * m.q[k];
-  }
-  const Pose error = motion.inverse() * rigid_fit(m, {0, 1, 2, 3, 4, 5, 6, 7, 8});
-  EXPECT_LT(angle(error), 1e-5);
-}
-
 Matches run(const Matches& matches, TestContext& context) {
-  return StepRun(*plumb_module())
+  return StepUnderTest(*plumb_module())
       .with("matches", matches)
       .set("max_correspondence_distance", 0.2)
       .run<Matches>("matches", context);
@@ -107,4 +81,4 @@ TEST(Ransac, KeepsFivePairsAsTheyAreAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_ransac

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "ransac.hpp"
 
-namespace plumb {
+namespace plumb::prune_ransac {
 namespace {
 
 struct Ransac : EdgeStep {
@@ -55,6 +57,6 @@ struct Ransac : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::prune_ransac
 
-PLUMB_MODULE(plumb::Ransac)
+PLUMB_MODULE(plumb::prune_ransac::Ransac)

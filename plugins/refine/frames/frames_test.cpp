@@ -1,9 +1,10 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "refine.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 namespace {
 
 using testing::HasSubstr;
@@ -201,8 +202,8 @@ struct Walk {
       segments[s].range.first = 2 * s, segments[s].range.end = 2 * s + 2;
     }
   }
-  StepRun step() const {
-    StepRun run(*plumb_module());
+  StepUnderTest step() const {
+    StepUnderTest run(*plumb_module());
     run.with("trajectory", trajectory)
         .each("frames", frames)
         .each("segments", segments)
@@ -233,9 +234,8 @@ TEST(RefineFrames, RegistersAFrameToTheSegmentsRoundItsOwnAndNotToThatOne) {
     EXPECT_LT(distance(refined.T_world_frame[f], walk.straight.T_world_frame[f]), 2e-3);
   }
   EXPECT_EQ(refined.stamps, walk.trajectory.stamps);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      0u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            0u);
 }
 
 TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
@@ -247,9 +247,8 @@ TEST(RefineFrames, SeesNoFartherThanTheNeighbours) {
   const auto one =
       walk.step().set("neighbours", std::int64_t(1)).run<Trajectory>("trajectory", context);
   EXPECT_EQ(one.T_world_frame[0].translation, walk.trajectory.T_world_frame[0].translation);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      4u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            4u);
   const auto two =
       walk.step().set("neighbours", std::int64_t(2)).run<Trajectory>("trajectory", context);
   EXPECT_LT(distance(two.T_world_frame[0], walk.straight.T_world_frame[0]), 2e-3);
@@ -263,9 +262,8 @@ TEST(RefineFrames, LeavesTheFramesOfOneSegmentAloneWhereTheyWereAndCountsThem) {
   const auto refined = walk.refined(context);
   for (int f = 0; f < 6; ++f)
     EXPECT_EQ(refined.T_world_frame[f].translation, walk.trajectory.T_world_frame[f].translation);
-  EXPECT_EQ(
-      context.counts["frames that see too little of the segments round them, left where they were"],
-      2u);
+  EXPECT_EQ(context.counts["frames left in place for seeing too little of the segments around"],
+            2u);
 }
 
 TEST(RefineFrames, RefusesFramesPosesAndSegmentsThatDoNotBelongTogether) {
@@ -302,4 +300,4 @@ TEST(RefineFrames, MultipliesTheDistanceOfACorrespondenceByAScale) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::refine_frames

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "shared/selection/evenly.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 namespace {
 
 /// Normal equations of a move (v, w) that takes a pose (R, t) to (R exp(w), t + v).
@@ -52,8 +52,8 @@ void add_pairs(const std::vector<Eigen::Vector3f>& points, const Pose& T_world_f
 FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Target>& targets,
                      const FrameOptions& options) {
   std::vector<Eigen::Vector3f> points;
-  const std::size_t n = std::min<std::size_t>(cloud.size(), options.max_points);
-  for (std::size_t k = 0; k < n; ++k) points.push_back(cloud.point(k * cloud.size() / n));
+  for (const auto k : selection::evenly(cloud.size(), options.max_points))
+    points.push_back(cloud.point(k));
   Vector6d prior;
   for (int axis = 0; axis < 6; ++axis)
     prior[axis] = std::pow(axis < 3 ? options.translation_sigma : options.rotation_sigma, -2);
@@ -94,4 +94,4 @@ FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Ta
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::refine_frames

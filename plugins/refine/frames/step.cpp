@@ -1,9 +1,12 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "refine.hpp"
 
-namespace plumb {
+namespace plumb::refine_frames {
 namespace {
 
 struct RefineFrames : WholeStep {
@@ -17,8 +20,9 @@ struct RefineFrames : WholeStep {
   struct Out {
     Trajectory trajectory;
   };
-  struct Params : FrameOptions {
+  struct Params {
     std::uint32_t neighbours = 2;
+    FrameOptions registration;
   };
 
   static void describe(Declaration<RefineFrames>& is) {
@@ -38,46 +42,15 @@ struct RefineFrames : WholeStep {
         .doc(
             "segments before, and as many after its own, that a frame is registered to; its own "
             "segment is left out, since it would keep the frame in place");
-    is.param("max_correspondence_distance", as_own(&FrameOptions::max_correspondence_distance))
-        .unit("m")
-        .range(1e-3, 100)
-        .doc("distance between the two points of a correspondence, in the first iteration");
-    is.param("final_max_correspondence_distance",
-             as_own(&FrameOptions::final_max_correspondence_distance))
-        .unit("m")
-        .range(1e-3, 100)
-        .doc("the same in the last iteration");
-    is.param("max_iterations", as_own(&FrameOptions::max_iterations))
-        .range(1, 1000)
-        .doc("iterations of point-to-plane ICP");
-    is.param("max_points", as_own(&FrameOptions::max_points))
-        .range(30, 1e9)
-        .doc("points of a frame that are matched, evenly selected");
-    is.param("noise", as_own(&FrameOptions::noise))
-        .unit("m")
-        .range(1e-4, 100)
-        .doc("scale of the Cauchy loss on the distance to the plane, and its standard deviation");
-    is.param("max_weight", as_own(&FrameOptions::max_weight))
-        .range(1, 1e9)
-        .doc("total weight of all correspondences of a frame");
-    is.param("translation_sigma", as_own(&FrameOptions::translation_sigma))
-        .unit("m")
-        .range(1e-6, 1e3)
-        .doc(
-            "standard deviation of a frame's position in the input: a prior for directions that "
-            "its points do not constrain");
-    is.param("rotation_sigma", as_own(&FrameOptions::rotation_sigma))
-        .unit("rad")
-        .range(1e-6 * deg, 360 * deg)
-        .doc("standard deviation of its orientation");
+    is.params(&Params::registration);
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count || in.frames.size() != in.trajectory->size())
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.poses->size()) + " poses, " + std::to_string(in.frames.size()) +
-                  " frames and a trajectory of " + std::to_string(in.trajectory->size()) +
+      throw Error("got " + counted(count, "segments") + ", " + counted(in.poses->size(), "poses") +
+                  ", " + counted(in.frames.size(), "frames") + " and a trajectory of " +
+                  std::to_string(in.trajectory->size()) +
                   ": wire what belongs to the same segments and frames");
     Out out{*in.trajectory};
     std::vector<std::uint32_t> alone(count, 0);
@@ -97,27 +70,19 @@ struct RefineFrames : WholeStep {
       for (std::uint32_t f = own->range.first; f < own->range.end; ++f) {
         const auto frame = in.frames.open(f);
         const FramePose pose =
-            registered(frame->cloud, in.trajectory->T_world_frame[f], targets, params);
+            registered(frame->cloud, in.trajectory->T_world_frame[f], targets, params.registration);
         out.trajectory.T_world_frame[f] = pose.T_world_frame;
         alone[s] += pose.pairs < 30;
       }
     });
     std::uint64_t stayed = 0;
     for (const auto n : alone) stayed += n;
-    context.count("frames that see too little of the segments round them, left where they were",
-                  stayed);
+    context.count("frames left in place for seeing too little of the segments around", stayed);
     return out;
-  }
-
- private:
-  /// Params inherits its members, which are named by the base.
-  template <class M>
-  static M Params::*as_own(M FrameOptions::*member) {
-    return member;
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::refine_frames
 
-PLUMB_MODULE(plumb::RefineFrames)
+PLUMB_MODULE(plumb::refine_frames::RefineFrames)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plumb {
+namespace plumb::register_correlative {
 namespace {
 
 struct Places {
@@ -30,14 +30,14 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   if (fixed.x.empty() || moving.x.empty()) return result;
 
   const bool known = start.x != 0 || start.y != 0 || start.yaw != 0;
-  const Prior prior{start, known ? options.prior_weight : 0, options.prior_translation_sigma,
-                    options.prior_rotation_sigma};
+  const planar::Prior prior{start, known ? options.prior_weight : 0,
+                            options.prior_translation_sigma, options.prior_rotation_sigma};
 
   // Where the peak is, to a cell.
   constexpr int levels = 5;
-  const LikelihoodField coarse(fixed.x, fixed.y, options.resolution, options.sigma,
-                               3 * options.sigma, levels);
-  const double step = yaw_step_for(moving.x, moving.y, options.resolution);
+  const planar::LikelihoodField coarse(fixed.x, fixed.y, options.resolution, options.sigma,
+                                       3 * options.sigma, levels);
+  const double step = planar::yaw_step_for(moving.x, moving.y, options.resolution);
   auto peak = best_pose(
       coarse, moving.x, moving.y,
       {start, options.search_window, options.search_window, options.search_angle, prior}, step, 0);
@@ -52,9 +52,10 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   if (!peak) return result;
   result.score = score_of(coarse, moving.x, moving.y, peak->pose);  // without the prior
 
-  const LikelihoodField fine(fixed.x, fixed.y, options.fine_resolution, options.fine_sigma,
-                             3 * options.fine_sigma, 3);
-  result.yaw_step = std::min(yaw_step_for(moving.x, moving.y, options.fine_resolution), step);
+  const planar::LikelihoodField fine(fixed.x, fixed.y, options.fine_resolution, options.fine_sigma,
+                                     3 * options.fine_sigma, 3);
+  result.yaw_step =
+      std::min(planar::yaw_step_for(moving.x, moving.y, options.fine_resolution), step);
   const double room = 1.2 * options.resolution;
   const auto best = best_pose(fine, moving.x, moving.y, {peak->pose, room, room, 1.5 * step, prior},
                               result.yaw_step, 0);
@@ -63,4 +64,4 @@ CorrelativeResult correlate(const Cloud& target, const Cloud& source, const Plan
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::register_correlative

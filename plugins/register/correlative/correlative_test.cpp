@@ -4,29 +4,23 @@
 
 #include <random>
 
-#include "plumb/data/registration.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/planar/room_testing.hpp"
 
-namespace plumb {
+namespace plumb::register_correlative {
 namespace {
 
-using Walls = std::vector<std::array<double, 4>>;  ///< x0 y0 x1 y1 [m]
+using planar::Walls;
 
 Cloud scan(const Walls& walls, const PlanarPose& at, int beams, double range, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> error(0, 0.01);
   Cloud cloud;
   for (int k = 0; k < beams; ++k) {
-    const double angle = 2 * M_PI * k / beams, dx = std::cos(at.yaw + angle),
-                 dy = std::sin(at.yaw + angle);
-    double nearest = range;
-    for (const auto& w : walls) {
-      const double ex = w[2] - w[0], ey = w[3] - w[1], det = ex * dy - ey * dx;
-      if (std::abs(det) < 1e-12) continue;
-      const double px = w[0] - at.x, py = w[1] - at.y;
-      const double hit = (ex * py - ey * px) / det, along = (dx * py - dy * px) / det;
-      if (hit > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, hit);
-    }
+    const double angle = 2 * M_PI * k / beams,
+                 nearest = planar::distance_to(walls, at, at.yaw + angle, range);
     if (nearest >= range) continue;
     const double r = nearest + error(random);
     cloud.add(
@@ -47,7 +41,7 @@ TEST(Correlate, NeedsNoStartWithinItsWindow) {
     const auto found =
         correlate(scan(room, {}, 360, 20, round), scan(room, motion, 360, 20, 50 + round), {}, {});
     EXPECT_LT(std::hypot(found.T.x - motion.x, found.T.y - motion.y), 0.04) << round;
-    EXPECT_NEAR(wrapped(found.T.yaw - motion.yaw), 0, 0.02) << round;
+    EXPECT_NEAR(planar::wrapped(found.T.yaw - motion.yaw), 0, 0.02) << round;
     EXPECT_FALSE(found.retried);
   }
 }
@@ -57,7 +51,7 @@ TEST(Correlate, LooksAllRoundWhereItsWindowHoldsNothing) {
   const auto found = correlate(scan(room, {}, 360, 20, 1), scan(room, motion, 360, 20, 2), {}, {});
   EXPECT_TRUE(found.retried);
   EXPECT_LT(std::hypot(found.T.x - motion.x, found.T.y - motion.y), 0.06);
-  EXPECT_NEAR(wrapped(found.T.yaw - motion.yaw), 0, 0.02);
+  EXPECT_NEAR(planar::wrapped(found.T.yaw - motion.yaw), 0, 0.02);
 }
 
 TEST(Correlate, AlongABareCorridorTheStartSaysHowFar) {
@@ -93,12 +87,12 @@ TEST(CorrelativeStep, AcceptsWhatFitsAndSaysSo) {
   };
   const Segment i = segment_of(scan(room, {}, 360, 20, 1)),
                 j = segment_of(scan(room, {0.1, 0.05, 0.1}, 360, 20, 2));
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   TestContext context;
   step.over("edges")
       .ends("targets", i, Segment())
       .ends("sources", Segment(), j)
-      .at("poses", Pose());
+      .part("poses", Pose());
   const auto found = step.run<Registration>("registration", context);
   EXPECT_TRUE(found.accepted);
   EXPECT_GT(found.overlap, 0.7);
@@ -111,4 +105,4 @@ TEST(CorrelativeStep, AcceptsWhatFitsAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_correlative

@@ -1,10 +1,11 @@
+#include "plumb/slam/step.hpp"
 
 #include "correlative.hpp"
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::register_correlative {
 namespace {
 
 struct RegisterCorrelative : EdgeStep {
@@ -16,16 +17,18 @@ struct RegisterCorrelative : EdgeStep {
   struct Out {
     Registration registration;
   };
-  struct Params : CorrelativeOptions {
+  struct Params {
+    CorrelativeOptions search;
     double min_score = 0.3;
     std::string check() const {
-      return fine_resolution > resolution ? "fine_resolution must not be larger than resolution"
-                                          : "";
+      return search.fine_resolution > search.resolution
+                 ? "fine_resolution must not be larger than resolution"
+                 : "";
     }
   };
 
   static void describe(Declaration<RegisterCorrelative>& is) {
-    is.name("register.correlative").version(1).source("[Olson2009]");
+    is.name("register.correlative").version(1).source("[Olson2009], [Hess2016]");
     is.summary(
         "Registers planar clouds by exhaustive search of a window around the current pose "
         "(correlative scan matching).");
@@ -35,66 +38,13 @@ struct RegisterCorrelative : EdgeStep {
     is.input("sources", &In::sources, "the source clouds; that of an edge's j is used");
     is.input("poses", &In::poses, "the current poses of the segments: the centre of the window");
     is.output("registration", &Out::registration, "T_i_j, with its score as overlap");
-    const auto param = [&is](const char* name, double CorrelativeOptions::*member) {
-      return is.param(name, static_cast<double Params::*>(member));
-    };
-    param("search_window", &CorrelativeOptions::search_window)
-        .unit("m")
-        .range(0.01, 20)
-        .doc("half width of the window in x and y");
-    param("search_angle", &CorrelativeOptions::search_angle)
-        .unit("rad")
-        .range(0.05 * deg, 180 * deg)
-        .doc("half width of the window in heading");
-    param("prior_weight", &CorrelativeOptions::prior_weight)
-        .range(0, 1)
-        .doc(
-            "score that a pose far from the current one loses at most, so that the current pose "
-            "decides where the points do not, as along a corridor; no effect where the current "
-            "pose is the identity");
-    param("prior_translation_sigma", &CorrelativeOptions::prior_translation_sigma)
-        .unit("m")
-        .range(1e-3, 10)
-        .doc("translation at which half of it is lost");
-    param("prior_rotation_sigma", &CorrelativeOptions::prior_rotation_sigma)
-        .unit("rad")
-        .range(0.05 * deg, 180 * deg)
-        .doc("rotation at which half of it is lost");
-    param("resolution", &CorrelativeOptions::resolution)
-        .unit("m")
-        .range(0.01, 2)
-        .doc("edge length of a cell of the first search");
-    param("sigma", &CorrelativeOptions::sigma)
-        .unit("m")
-        .range(0.005, 2)
-        .doc("standard deviation of a point's position in the first search");
-    param("retry_below", &CorrelativeOptions::retry_below)
-        .range(0, 1)
-        .doc(
-            "where the best score is lower, the window is widened to retry_search_window and all "
-            "headings");
-    param("retry_search_window", &CorrelativeOptions::retry_search_window)
-        .unit("m")
-        .range(0.01, 50)
-        .doc("see retry_below");
-    param("fine_resolution", &CorrelativeOptions::fine_resolution)
-        .unit("m")
-        .range(0.005, 1)
-        .doc("edge length of a cell of the second search, around the peak of the first");
-    param("fine_sigma", &CorrelativeOptions::fine_sigma)
-        .unit("m")
-        .range(0.005, 1)
-        .doc("standard deviation of a point's position in the second search");
-    param("max_range", &CorrelativeOptions::max_range)
-        .unit("m")
-        .range(1, 1000)
-        .doc("points farther from their sensor are left out");
+    is.params(&Params::search);
     is.param("min_score", &Params::min_score).range(0, 1).doc("score of an accepted registration");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const CorrelativeResult found =
-        correlate(in.targets.i->cloud, in.sources.j->cloud, planar(in.poses.T_i_j), params);
+    const CorrelativeResult found = correlate(in.targets.i->cloud, in.sources.j->cloud,
+                                              planar::projected(in.poses.T_i_j), params.search);
     Registration out;
     out.T_i_j = in_space(found.T);
     out.iterations = found.retried ? 2 : 1;
@@ -103,7 +53,7 @@ struct RegisterCorrelative : EdgeStep {
     out.accepted = found.score >= params.min_score;
     if (out.accepted) {
       // A cell's width as standard deviation.
-      const double place = std::pow(params.fine_resolution, -2),
+      const double place = std::pow(params.search.fine_resolution, -2),
                    heading = std::pow(found.yaw_step, -2);
       out.information.diagonal() << place, place, 0, 0, 0, heading;
     }
@@ -114,6 +64,6 @@ struct RegisterCorrelative : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_correlative
 
-PLUMB_MODULE(plumb::RegisterCorrelative)
+PLUMB_MODULE(plumb::register_correlative::RegisterCorrelative)

@@ -1,11 +1,12 @@
 #include "consensus.hpp"
 
-#include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 
-namespace plumb {
+#include "shared/point_pairs/rigid_fit.hpp"
+#include "shared/selection/evenly.hpp"
+
+namespace plumb::register_features {
 namespace {
 
 /// Row a has bit b where pairs a and b are compatible.
@@ -48,45 +49,18 @@ class Compatibility {
   std::vector<std::uint64_t> bits_;
 };
 
-/// The motion T_j_i with the least sum of |T p - q|^2 [Kabsch1976].
-Pose fit(const Matches& matches, const std::vector<std::uint32_t>& pairs) {
-  Eigen::Vector3d mean_p = Eigen::Vector3d::Zero(), mean_q = Eigen::Vector3d::Zero();
-  for (const auto k : pairs)
-    mean_p += matches.p[k].cast<double>(), mean_q += matches.q[k].cast<double>();
-  mean_p /= static_cast<double>(pairs.size());
-  mean_q /= static_cast<double>(pairs.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto k : pairs)
-    covariance +=
-        (matches.q[k].cast<double>() - mean_q) * (matches.p[k].cast<double>() - mean_p).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) signs.z() = -1;
-  const Eigen::Matrix3d R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return {R, Eigen::Vector3d(mean_q - R * mean_p)};
-}
-
-std::vector<std::uint32_t> within(const Matches& matches, const Pose& T_j_i, double tolerance) {
-  const Motion motion(T_j_i);
-  const auto squared = static_cast<float>(tolerance * tolerance);
-  std::vector<std::uint32_t> inliers;
-  for (std::uint32_t k = 0; k < matches.size(); ++k)
-    if ((motion * matches.p[k] - matches.q[k]).squaredNorm() <= squared) inliers.push_back(k);
-  return inliers;
-}
-
 /// Fits again to who agrees, as long as their number grows.
 Consensus grown(const Matches& matches, std::vector<std::uint32_t> pairs, double tolerance) {
   Consensus best;
   for (int round = 0; round < 10 && pairs.size() >= 3; ++round) {
-    Consensus next{fit(matches, pairs), {}};
-    next.inliers = within(matches, next.T_j_i, tolerance);
+    Consensus next{point_pairs::rigid_fit(matches.p, matches.q, pairs), {}};
+    next.inliers = point_pairs::agreeing(matches.p, matches.q, next.T_j_i, tolerance);
     if (next.inliers.size() <= best.inliers.size()) break;
     pairs = next.inliers;
     best = std::move(next);
   }
-  if (best.inliers.size() >= 3) best.T_j_i = fit(matches, best.inliers);
+  if (best.inliers.size() >= 3)
+    best.T_j_i = point_pairs::rigid_fit(matches.p, matches.q, best.inliers);
   return best;
 }
 
@@ -94,11 +68,9 @@ Consensus grown(const Matches& matches, std::vector<std::uint32_t> pairs, double
 
 Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) {
   Consensus best;
-  const std::size_t n = std::min<std::size_t>(matches.size(), options.max_pairs);
+  const std::vector<std::uint32_t> chosen = selection::evenly(matches.size(), options.max_pairs);
+  const std::size_t n = chosen.size();
   if (n < 3) return best;
-  std::vector<std::uint32_t> chosen(n);
-  for (std::size_t k = 0; k < n; ++k)
-    chosen[k] = static_cast<std::uint32_t>(k * matches.size() / n);
   const Compatibility graph(matches, chosen, options);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order(n);  // most compatible first
   for (std::uint32_t a = 0; a < n; ++a) order[a] = {graph.degree(a), a};
@@ -127,4 +99,4 @@ Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) 
   return best;
 }
 
-}  // namespace plumb
+}  // namespace plumb::register_features

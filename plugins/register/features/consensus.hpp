@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 
 struct ConsensusOptions {
   double tolerance =
@@ -32,4 +32,4 @@ struct Consensus {
 /// al. 2022 (SC2-PCR), without its learnt or spectral parts; Shi et al. 2021 (ROBIN).
 Consensus consensus_of(const Matches& matches, const ConsensusOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::register_features

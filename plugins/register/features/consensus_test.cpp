@@ -6,7 +6,7 @@
 
 #include "plumb/plugin/context.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 namespace {
 
 Eigen::Vector3f in_cube(Random& random, float half) {
@@ -164,4 +164,4 @@ TEST(Consensus, TakesTheLargerOfTwoGroups) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_features

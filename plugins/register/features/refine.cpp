@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
+#include "shared/selection/evenly.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 namespace {
 
 struct PlanePair {
@@ -33,11 +34,11 @@ Asked pairs_of(const Segment& a, const Segment& b, const Pose& T_b_a, double max
     if ((p.array() >= low.array()).all() && (p.array() <= high.array()).all()) inside.push_back(k);
   }
   Asked result;
-  const std::size_t n = std::min<std::size_t>(inside.size(), most);
-  result.asked = n;
+  const std::vector<std::uint32_t> chosen = selection::evenly(inside.size(), most);
+  result.asked = chosen.size();
   const auto cosine = static_cast<float>(std::cos(max_angle));
-  for (std::size_t s = 0; s < n; ++s) {
-    const std::uint32_t k = inside[s * inside.size() / n];
+  for (const auto c : chosen) {
+    const std::uint32_t k = inside[c];
     result.normals.push_back(a.cloud.normal(k));
     result.paired.push_back(false);
     SearchTree::Neighbour nearest;
@@ -134,4 +135,4 @@ Registration refined(const Segment& i, const Segment& j, const Pose& start,
   return result;
 }
 
-}  // namespace plumb
+}  // namespace plumb::register_features

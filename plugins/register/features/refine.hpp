@@ -1,10 +1,10 @@
 #pragma once
 /// A motion between two segments made exact by their clouds, and judged by them.
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 
 struct RefineOptions {
   double initial_max_correspondence_distance =
@@ -24,4 +24,4 @@ struct RefineOptions {
 Registration refined(const Segment& i, const Segment& j, const Pose& T_j_i,
                      const RefineOptions& options, double independent = 50);
 
-}  // namespace plumb
+}  // namespace plumb::register_features

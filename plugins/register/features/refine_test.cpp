@@ -6,7 +6,7 @@
 
 #include "yard_testing.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 namespace {
 
 constexpr double degree = M_PI / 180;
@@ -200,4 +200,4 @@ TEST(RefinedInformation, ForetellsTheErrorWherePairsAreIndependent) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_features

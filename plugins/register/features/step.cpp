@@ -1,8 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "consensus.hpp"
 #include "plumb/plugin/module.hpp"
 #include "refine.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 namespace {
 
 struct RegisterFeatures : EdgeStep {
@@ -94,6 +96,6 @@ struct RegisterFeatures : EdgeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_features
 
-PLUMB_MODULE(plumb::RegisterFeatures)
+PLUMB_MODULE(plumb::register_features::RegisterFeatures)

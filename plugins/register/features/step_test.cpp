@@ -1,11 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <gmock/gmock.h>
 
-#include "plumb/data/registration.hpp"
-#include "plumb/data/values.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/values.hpp"
 #include "yard_testing.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 namespace {
 
 const Pose T_world_i(exp_rotation({0.01, -0.02, 0.3}), {2, -1, 1.5}),
@@ -32,8 +34,8 @@ Matches planted(int right, int wrong, const Pose& T_i_j_planted, std::uint32_t s
   return m;
 }
 
-StepRun registering(const Matches& matches, const Segment& i, const Segment& j) {
-  StepRun step(*plumb_module());
+StepUnderTest registering(const Matches& matches, const Segment& i, const Segment& j) {
+  StepUnderTest step(*plumb_module());
   step.with("matches", matches).ends("segments", i, j);
   return step;
 }
@@ -129,4 +131,4 @@ TEST(RegisterFeatures, SaysThatItNeedsNormals) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_features

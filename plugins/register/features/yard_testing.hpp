@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::register_features {
 
 struct Block {
   Eigen::Vector3d low, high;  ///< [m]
@@ -84,4 +84,4 @@ inline Segment seen_from(const Pose& T_world_segment, const Cloud& world) {
   return segment_of(moved(world, T_world_segment.inverse()));
 }
 
-}  // namespace plumb
+}  // namespace plumb::register_features

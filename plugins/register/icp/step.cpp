@@ -1,22 +1,25 @@
-#include "plumb/data/registration.hpp"
-#include "plumb/data/segment.hpp"
-#include "plumb/geometry/planar_icp.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/registration.hpp"
+#include "plumb/slam/segment.hpp"
+#include "shared/planar/icp.hpp"
+
+namespace plumb::register_icp {
 namespace {
 
+using planar::IcpOptions;
+using planar::IcpResult;
+using planar::Metric;
+using planar::PlanarPose;
+using planar::Stop;
+
 struct RegisterParams {
-  double max_correspondence_distance = 0.3;
-  Metric metric = Metric::point;
-  std::uint32_t max_iterations = 50;
-  double change = 1e-4;
-  double ratio = 0.95;
-  double noise = 0.03;
-  std::optional<double> start_sigma;
+  IcpOptions icp;
   double min_overlap = 0.5;
   std::string check() const {
-    return start_sigma && metric == Metric::point ? "'start_sigma' goes with 'metric: line'" : "";
+    return icp.start_sigma && icp.metric == Metric::point ? "'start_sigma' goes with 'metric: line'"
+                                                          : "";
   }
 };
 
@@ -44,30 +47,8 @@ struct Register : EdgeStep {
     is.optional_input("initial", &In::initial, "the initial guess instead, if accepted");
     is.output("registration", &Out::registration,
               "T_i_j, its information, iterations, MAE and overlap");
-    is.param("max_correspondence_distance", &Params::max_correspondence_distance)
-        .unit("m")
-        .range(1e-3, 100)
-        .doc("distance between the two points of a pair");
-    is.choice(
-          "metric", &Params::metric,
-          {{"point", Metric::point, "point-to-point distance"},
-           {"line", Metric::line,
-            "point-to-line distance, along the target's normal (estimate.normals with planar)"}})
-        .doc("the error that is minimised")
-        .source("[Zhang2023] eq. (3)");
-    is.param("max_iterations", &Params::max_iterations)
-        .range(0, 10000)
-        .doc("iterations; 0: the initial guess is only evaluated");
-    is.param("noise", &Params::noise)
-        .unit("m")
-        .range(1e-4, 10)
-        .doc("standard deviation of a pair's residual, for the information");
-    is.param("start_sigma", &Params::start_sigma)
-        .unit("m")
-        .range(1e-4, 100)
-        .doc(
-            "with metric line, standard deviation of the initial guess's position, a third of it "
-            "in rad for the heading; none: no prior");
+    is.params(&Params::icp,
+              {"max_correspondence_distance", "metric", "max_iterations", "noise", "start_sigma"});
     is.param("min_overlap", &Params::min_overlap)
         .range(0, 1)
         .doc("share of the points that must have a pair for the registration to be accepted");
@@ -75,23 +56,20 @@ struct Register : EdgeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const Segment &target = *in.targets.i, &source = *in.sources.j;
-    if (params.metric == Metric::line && !target.cloud.empty() && !target.cloud.has_normals())
+    if (params.icp.metric == Metric::line && !target.cloud.empty() && !target.cloud.has_normals())
       throw Error(
           "'metric: line' needs normals and the targets have none: put estimate.normals with "
           "'planar: true' "
           "before, or use 'metric: point'");
     const PlanarPose start =
-        planar(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
-    IcpOptions options;
-    options.stop = stop, options.metric = params.metric, options.change = params.change;
-    options.ratio = params.ratio,
-    options.max_correspondence_distance = params.max_correspondence_distance,
-    options.max_iterations = params.max_iterations;
-    options.noise = params.noise, options.start_sigma = params.start_sigma;
+        planar::projected(in.initial && in.initial->accepted ? in.initial->T_i_j : in.poses.T_i_j);
+    IcpOptions options = params.icp;
+    options.stop = stop;
     Registration out;
     out.T_i_j = in_space(start);
     if (!target.cloud.empty() && !source.cloud.empty()) {
-      const IcpResult found = align(target.cloud, target.tree(), source.cloud, start, options);
+      const IcpResult found =
+          planar::align(target.cloud, target.tree(), source.cloud, start, options);
       out.T_i_j = in_space(found.T);
       out.iterations = found.iterations, out.pairs = found.pairs;
       out.mae = static_cast<float>(found.mae), out.overlap = static_cast<float>(found.overlap);
@@ -112,29 +90,22 @@ struct RegisterIcp : Register<Stop::change> {
     is.summary(
         "Registers planar clouds by ICP (iterative closest points), until the pose converges.");
     describe_shared(is);
-    is.param("change", &Params::change)
-        .range(1e-9, 1)
-        .doc("converged when an iteration moves the pose by less, m and rad added");
+    is.params(&Params::icp, {"change"});
   }
 };
 
 struct RegisterIaIcp : Register<Stop::ratio> {
   static void describe(Declaration<RegisterIaIcp>& is) {
-    is.name("register.ia_icp").version(1).source("[Zhang2023] eq. (12)");
+    is.name("register.ia_icp").version(1).source("[Zhang2023] 2, eq. (12)");
     is.summary(
         "Registers planar clouds by ICP (iterative closest points), until the mean distance of the "
         "pairs stops decreasing.");
     describe_shared(is);
-    is.param("ratio", &Params::ratio)
-        .range(0, 1)
-        .source("[Zhang2023] 2")
-        .doc(
-            "stops when the mean distance of the pairs is at least this times that of the "
-            "iteration before");
+    is.params(&Params::icp, {"ratio"});
   }
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::register_icp
 
-PLUMB_MODULE(plumb::RegisterIcp, plumb::RegisterIaIcp)
+PLUMB_MODULE(plumb::register_icp::RegisterIcp, plumb::register_icp::RegisterIaIcp)

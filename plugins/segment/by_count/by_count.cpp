@@ -1,6 +1,6 @@
 #include "by_count.hpp"
 
-namespace plumb {
+namespace plumb::segment_by_count {
 
 std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_segment) {
   std::vector<std::size_t> starts;
@@ -9,4 +9,4 @@ std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_seg
   return starts;
 }
 
-}  // namespace plumb
+}  // namespace plumb::segment_by_count

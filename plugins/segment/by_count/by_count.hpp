@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-namespace plumb {
+namespace plumb::segment_by_count {
 
 /// First frames of segments of `per_segment` (at least 1) of `frames` frames. A last segment of
 /// less than half as many joins the one before it. Empty for no frames. Source: [Tang2024] 2.2; the
 /// short last segment is ours.
 std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_segment);
 
-}  // namespace plumb
+}  // namespace plumb::segment_by_count

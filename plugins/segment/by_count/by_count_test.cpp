@@ -5,10 +5,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::segment_by_count {
 namespace {
 
 using testing::ElementsAre;
@@ -93,4 +94,4 @@ TEST(SegmentByCount, RefusesMoreFramesThanAPointCanName) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_count

@@ -1,8 +1,10 @@
-#include "by_count.hpp"
-#include "plumb/data/range.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "by_count.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/range.hpp"
+
+namespace plumb::segment_by_count {
 namespace {
 
 struct ByCount : WholeStep {
@@ -38,6 +40,6 @@ struct ByCount : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_count
 
-PLUMB_MODULE(plumb::ByCount)
+PLUMB_MODULE(plumb::segment_by_count::ByCount)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 
 double grown_length(double path, double length, std::optional<double> max_length,
                     std::size_t max_segments) {
@@ -30,4 +30,4 @@ std::vector<std::size_t> starts_by_distance(
   return starts;
 }
 
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 
 /// The length of segments [m] that makes at most `max_segments` of a path [m]: not less than
 /// `length`, nor more than `max_length` (none: `length`).
@@ -24,4 +24,4 @@ std::vector<std::size_t> starts_by_distance(
     const std::vector<double>& travelled, double length, std::optional<std::size_t> max_frames,
     const std::function<bool(std::size_t first, std::size_t k)>& breaks = {});
 
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance

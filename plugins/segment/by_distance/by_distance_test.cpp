@@ -4,10 +4,11 @@
 
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 namespace {
 
 using testing::ElementsAre;
@@ -146,4 +147,4 @@ TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance

@@ -1,11 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <functional>
 #include <optional>
 
 #include "by_distance.hpp"
-#include "plumb/data/range.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/range.hpp"
 
-namespace plumb {
+namespace plumb::segment_by_distance {
 namespace {
 
 struct ByDistance : WholeStep {
@@ -78,6 +80,6 @@ struct ByDistance : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_by_distance
 
-PLUMB_MODULE(plumb::ByDistance)
+PLUMB_MODULE(plumb::segment_by_distance::ByDistance)

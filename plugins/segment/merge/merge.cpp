@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "plumb/data/voxel_means.hpp"
+#include "shared/thinning/voxel_means.hpp"
 
-namespace plumb {
+namespace plumb::segment_merge {
 namespace {
 
 /// to[k] = row * (x, y, z)[k] + shift.
@@ -90,7 +90,7 @@ Segment merge(const FrameRange& range, const OpenFrame& open) {
 
 Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open,
                       std::size_t& dropped) {
-  VoxelMeans means(voxel_size);
+  thinning::VoxelMeans means(voxel_size);
   const auto origins = range.origins();
   for (std::size_t k = 0; k < range.size(); ++k) {
     Merger moved;
@@ -104,4 +104,4 @@ Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFram
   return empty.with(std::move(thinned.cloud), std::move(thinned.frame));
 }
 
-}  // namespace plumb
+}  // namespace plumb::segment_merge

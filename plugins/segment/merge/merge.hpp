@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "plumb/data/segment.hpp"
+#include "plumb/slam/segment.hpp"
 
-namespace plumb {
+namespace plumb::segment_merge {
 
 /// Gives frame k of a range, from 0; asked once for each, in order, and each is let go before the
 /// next.
@@ -21,4 +21,4 @@ Segment merge(const FrameRange& range, const OpenFrame& open);
 Segment merge_thinned(const FrameRange& range, double voxel_size, const OpenFrame& open,
                       std::size_t& dropped);
 
-}  // namespace plumb
+}  // namespace plumb::segment_merge

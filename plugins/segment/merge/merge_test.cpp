@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "plumb/data/archive.hpp"
-#include "plumb/data/voxel_means.hpp"
 #include "plumb/plugin/context.hpp"
+#include "shared/thinning/voxel_means.hpp"
 
-namespace plumb {
+namespace plumb::segment_merge {
 namespace {
 
 using testing::ElementsAre;
@@ -89,7 +89,7 @@ TEST(SegmentMerge, ThinsWhileItMergesAsAVoxelGridDoesAfterwards) {
         merged.range, 9,
         [&](std::size_t k) { return std::make_shared<const Frame>(merged.frames[k]); }, dropped);
     const Segment whole = merged.segment();
-    VoxelMeans means(9);
+    thinning::VoxelMeans means(9);
     means.add(whole.cloud, whole.frame, whole.range.origins());
     const auto expected = means.take();
     EXPECT_LT(thinned.cloud.size(), 10000u);
@@ -149,4 +149,4 @@ TEST(SegmentMerge, MakesAnEmptySegmentOfEmptyFrames) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_merge

@@ -1,7 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "merge.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::segment_merge {
 namespace {
 
 struct Merge : SegmentStep {
@@ -36,9 +39,9 @@ struct Merge : SegmentStep {
   Out run(const In& in, const Params& params, Context& context) const {
     if (in.frames.size() != in.ranges->size())
       throw Error("the segment from frame " + std::to_string(in.ranges->first) + " has " +
-                  std::to_string(in.ranges->size()) + " frames, but " +
+                  counted(in.ranges->size(), "frames") + ", but got " +
                   std::to_string(in.frames.size()) +
-                  " came in: wire frames and ranges of the same sequence");
+                  ": wire frames and ranges of the same sequence");
     const auto open = [&](std::size_t k) { return in.frames.open(k).shared(); };
     std::size_t dropped = 0;
     Out out{params.voxel_size > 0 ? merge_thinned(*in.ranges, params.voxel_size, open, dropped)
@@ -50,6 +53,6 @@ struct Merge : SegmentStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_merge
 
-PLUMB_MODULE(plumb::Merge)
+PLUMB_MODULE(plumb::segment_merge::Merge)

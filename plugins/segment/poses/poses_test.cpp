@@ -1,7 +1,8 @@
-#include "plumb/data/range.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/range.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::segment_poses {
 namespace {
 
 /// `n` poses, `step` [m] apart along x.
@@ -19,7 +20,7 @@ TEST(SegmentPoses, OfTheTrajectoryThatTheRangesWereCutFromAreTheRanges) {
   const Trajectory trajectory = along_x(10, 1);
   const auto ranges = ranges_from(trajectory, {0, 4, 7});
   TestContext context;
-  const auto poses = StepRun(*plumb_module())
+  const auto poses = StepUnderTest(*plumb_module())
                          .with("trajectory", trajectory)
                          .each("ranges", ranges)
                          .run<Poses>("poses", context);
@@ -34,7 +35,7 @@ TEST(SegmentPoses, OfTheTrajectoryThatTheRangesWereCutFromAreTheRanges) {
 TEST(SegmentPoses, OfAnotherTrajectoryAreThoseOfTheMiddleFrames) {
   const auto ranges = ranges_from(along_x(10, 1), {0, 4, 7});
   TestContext context;
-  const auto poses = StepRun(*plumb_module())
+  const auto poses = StepUnderTest(*plumb_module())
                          .with("trajectory", along_x(10, 2))
                          .each("ranges", ranges)
                          .run<Poses>("poses", context);
@@ -47,7 +48,7 @@ TEST(SegmentPoses, RefusesRangesOfALongerTrajectory) {
   const auto ranges = ranges_from(along_x(10, 1), {0, 4, 7});
   TestContext context;
   try {
-    StepRun(*plumb_module())
+    StepUnderTest(*plumb_module())
         .with("trajectory", along_x(9, 1))
         .each("ranges", ranges)
         .run<Poses>("poses", context);
@@ -60,4 +61,4 @@ TEST(SegmentPoses, RefusesRangesOfALongerTrajectory) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_poses

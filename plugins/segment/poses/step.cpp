@@ -1,6 +1,8 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::segment_poses {
 namespace {
 
 struct SegmentPoses : WholeStep {
@@ -41,6 +43,6 @@ struct SegmentPoses : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::segment_poses
 
-PLUMB_MODULE(plumb::SegmentPoses)
+PLUMB_MODULE(plumb::segment_poses::SegmentPoses)

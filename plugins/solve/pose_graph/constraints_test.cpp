@@ -8,7 +8,7 @@
 #include "graph_testing.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 struct File {
@@ -326,4 +326,4 @@ TEST(Constraints, WithANegativeInformationAreRefused) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

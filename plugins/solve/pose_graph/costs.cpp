@@ -8,7 +8,7 @@
 #include "plumb/data/short_number.hpp"
 #include "pose_manifold.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 /// A pose block's derivative: rows x 7, of which the last column is 0.
@@ -181,4 +181,4 @@ ChordalWeights chordal_weights(const Matrix6d& information, bool planar) {
           3 / (2 * information.bottomRightCorner<3, 3>().inverse().trace())};
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

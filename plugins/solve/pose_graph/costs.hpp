@@ -5,10 +5,10 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 /// All pairs of an edge (i, j) at once: |F y(T_j^-1 T_i)|^2 = sum w |T_i p - T_j q|^2, or with
 /// planes sum w (n'(T_j^-1 T_i p - q))^2. `form` is read at each evaluation: it may change between
@@ -89,4 +89,4 @@ struct ChordalWeights {
 };
 ChordalWeights chordal_weights(const Matrix6d& information, bool planar);
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

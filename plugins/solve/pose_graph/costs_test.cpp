@@ -8,7 +8,7 @@
 #include "plumb/data/error.hpp"
 #include "pose_manifold.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 Pose random_pose(std::mt19937& random) {
@@ -126,4 +126,4 @@ TEST(InformationRoot, TakesMatricesWithoutFullRankAndRefusesNegativeOnes) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -2,7 +2,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 EdgeState::EdgeState(const MatchedEdge& edge, const GraphOptions& options)
     : edge_(edge.edge), matches_(edge.matches), options_(options) {
@@ -86,4 +86,4 @@ double EdgeState::cost(const Pose& T_j_i) const {
   return share_ * sum;
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

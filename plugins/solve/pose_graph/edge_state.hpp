@@ -5,7 +5,7 @@
 
 #include "pose_graph.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 /// How hard the losses are in one round.
 struct Hardness {
@@ -66,4 +66,4 @@ class EdgeState {
   double mean_weight_ = 1, rms_ = 0, weighted_squares_ = 0, weight_sum_ = 0;
 };
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -5,8 +5,11 @@
 #include <random>
 
 #include "pose_graph.hpp"
+#include "shared/parallel/loop_testing.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
+
+using parallel::in_order;
 
 struct TestGraph {
   Poses truth, drifted;
@@ -88,8 +91,4 @@ inline double ate(const Poses& poses, const Poses& truth) {
   return std::sqrt((d - b).squaredNorm() / static_cast<double>(poses.size()));
 }
 
-inline void in_order(std::size_t n, const std::function<void(std::size_t)>& body) {
-  for (std::size_t k = 0; k < n; ++k) body(k);
-}
-
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 enum class Loss { none, huber, cauchy, geman_mcclure };
 
@@ -41,4 +41,4 @@ inline double loss_weight(Loss kind, double s) {
   return 1;
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

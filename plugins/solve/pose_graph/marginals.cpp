@@ -7,7 +7,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 /// L (unit lower, columns sorted) and D of P H P' = L D L', and the inverse on L's pattern, from
@@ -143,4 +143,4 @@ std::vector<Matrix6d> diagonal_blocks_of_inverse(const Eigen::SparseMatrix<doubl
   return blocks;
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -12,7 +12,7 @@ namespace ceres {
 class Problem;
 }
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 /// The covariance of each pose's move (v in the world [m], w in its own axes [rad]) beside the
 /// fixed poses, whose entries are empty: the blocks on the diagonal of (J'J)^-1, from the problem's
@@ -27,4 +27,4 @@ std::vector<std::optional<Matrix6d>> marginal_covariances(const ceres::Problem& 
 /// where H is not positive definite.
 std::vector<Matrix6d> diagonal_blocks_of_inverse(const Eigen::SparseMatrix<double>& lower);
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -8,7 +8,7 @@
 #include "graph_testing.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 using Joints = std::vector<std::pair<int, int>>;
@@ -407,4 +407,4 @@ TEST(Uncertainty, IsLeftOutWithAWarningWhereAConstraintLeavesAPoseFree) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 /// Union-find over vertices 0 .. n-1; a part is known by its smallest vertex.
 class Parts {
@@ -53,4 +53,4 @@ inline std::string runs_of(const std::vector<std::uint32_t>& vertices) {
   return text;
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

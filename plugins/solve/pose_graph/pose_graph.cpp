@@ -12,11 +12,12 @@
 #include "edge_state.hpp"
 #include "marginals.hpp"
 #include "parts.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "pose_manifold.hpp"
 #include "verdict.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 /// A constraint's or prior's term, and the robust weight it has in this round.
@@ -31,7 +32,7 @@ struct ConstraintTerm {
 class Graph {
  public:
   Graph(const Poses& start, std::span<const MatchedEdge> edges, const Constraints* constraints,
-        const GraphOptions& options, const ParallelLoop& parallel)
+        const GraphOptions& options, const parallel::Loop& parallel)
       : start_(start), options_(options), parallel_(parallel), parts_(start.size()) {
     for (const auto& pose : start.T_world_segment) blocks_.push_back(block_of(pose));
     check(edges, constraints);
@@ -64,8 +65,8 @@ class Graph {
   void check(std::span<const MatchedEdge> edges, const Constraints* constraints) const {
     const auto has = [&](std::uint32_t i, const char* what) {
       if (i >= start_.size())
-        throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but there are " +
-                    std::to_string(start_.size()) + " poses; wire poses of the same segments");
+        throw Error(std::string(what) + " names pose " + std::to_string(i) + ", but got " +
+                    counted(start_.size(), "poses") + "; wire poses of the same segments");
     };
     for (const auto& e : edges) has(e.edge.i, "an edge"), has(e.edge.j, "an edge");
     if (!constraints) return;
@@ -385,7 +386,7 @@ class Graph {
 
   const Poses& start_;
   const GraphOptions& options_;
-  const ParallelLoop& parallel_;
+  const parallel::Loop& parallel_;
   Parts parts_;
   bool planar_ = false;
   std::vector<PoseBlock> blocks_;
@@ -413,9 +414,9 @@ std::string GraphOptions::check() const {
 
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
                              const Constraints* constraints, const GraphOptions& options,
-                             const ParallelLoop& parallel) {
+                             const parallel::Loop& parallel) {
   if (start.size() == 0) throw Error("there are no poses to solve for");
   return Graph(start, edges, constraints, options, parallel).solve();
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

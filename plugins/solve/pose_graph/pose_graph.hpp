@@ -1,7 +1,6 @@
 #pragma once
 /// The pose graph: where every segment is, so that the pairs of all edges come together.
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,9 +8,10 @@
 
 #include "costs.hpp"
 #include "loss.hpp"
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
+#include "shared/parallel/loop.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 struct GraphOptions {
   Loss loss = Loss::huber;  ///< of each pair
@@ -62,10 +62,6 @@ struct GraphResult {
                             ///< its marginal information
 };
 
-/// Calls body(0 .. n-1), in any order, on any threads.
-using ParallelLoop =
-    std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
 /// Poses T_k that minimise, starting from `start`,
 ///   sum over edges, over pairs   w rho(|T_i p - T_j q|^2 / scale^2)       (or the distance to the
 ///   plane at q)
@@ -91,6 +87,6 @@ using ParallelLoop =
 /// negative eigenvalue.
 GraphResult solve_pose_graph(const Poses& start, std::span<const MatchedEdge> edges,
                              const Constraints* constraints, const GraphOptions& options,
-                             const ParallelLoop& parallel);
+                             const parallel::Loop& parallel);
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -6,7 +6,7 @@
 #include "plumb/data/archive.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 GraphResult solve(const TestGraph& g, const GraphOptions& options, const Poses* start = nullptr) {
@@ -140,11 +140,8 @@ TEST(PoseGraph, TheOdometryHoldsTheShapeWhereSequentialPairsAreFewAndWrong) {
 
 TEST(PoseGraph, GivesTheSameBytesInAnyOrderOfWork) {
   const auto g = circle(20, 2, 6);
-  const auto backwards = [](std::size_t n, const std::function<void(std::size_t)>& body) {
-    for (std::size_t k = n; k > 0; --k) body(k - 1);
-  };
   const auto a = solve(g, robust());
-  const auto b = solve_pose_graph(g.drifted, g.matched(), nullptr, robust(), backwards);
+  const auto b = solve_pose_graph(g.drifted, g.matched(), nullptr, robust(), parallel::backwards);
   EXPECT_EQ(content_hash(a.poses), content_hash(b.poses));
   EXPECT_EQ(content_hash(a.metrics), content_hash(b.metrics));
 }
@@ -177,4 +174,4 @@ TEST(PoseGraph, RefusesPlanesWithoutNormals) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 using PoseBlock = std::array<double, 7>;
 
@@ -64,4 +64,4 @@ class PoseManifold final : public ceres::Manifold {
   bool planar_;
 };
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "plumb/plugin/module.hpp"
 #include "pose_graph.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
 
 const std::vector<ChoiceOf<Loss>> losses = {
@@ -29,7 +31,9 @@ struct SolvePoseGraph : WholeStep {
     is.name("solve.pose_graph")
         .version(2)
         .summary("Optimizes the poses of all segments so that matches and constraints agree.")
-        .source("[Tang2024] 2.1, 2.4.1");
+        .source(
+            "[Tang2024] 2.1, 2.4.1; the other losses, the bounds on weights and pairs to planes "
+            "are ours");
     is.input("poses", &In::poses, "initial poses of the segments");
     is.optional_input("matches", &In::matches, "point pairs of each edge");
     is.optional_input(
@@ -41,9 +45,45 @@ struct SolvePoseGraph : WholeStep {
     is.output("uncertainty", &Out::uncertainty,
               "with 'uncertainty: true', the uncertainty of each pose relative to the first: "
               "absolute poses with their information");
+    describe_matches(is);
+    describe_constraints(is);
+    is.param("max_rounds", &Params::max_rounds)
+        .range(1, 1000)
+        .doc("rounds of reweighting; with anneal_from two thirds of them shrink the scale");
+    is.param("max_iterations", &Params::max_iterations)
+        .range(1, 10000)
+        .doc("iterations of Levenberg-Marquardt in one round");
+    describe_uncertainty(is);
+    is.param("tolerance", &Params::tolerance)
+        .unit("m")
+        .range(0, 1)
+        .doc("rounds end when no pose moves by more than this, a rotation taken at 10 m");
+  }
+
+  Out run(const In& in, const Params& params, Context& context) const {
+    if (!in.matches && in.constraints.empty())
+      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'constraints' or both");
+    std::vector<One<Matches>> held;
+    std::vector<MatchedEdge> edges;
+    if (in.matches) {
+      held.resize(in.matches.size());
+      context.parallel(held.size(), [&](std::size_t k) { held[k] = in.matches.open(k); });
+      for (std::size_t k = 0; k < held.size(); ++k)
+        edges.push_back({edges_of(in.matches).list[k], &*held[k]});
+    }
+    const Constraints constraints = joined(in.constraints);
+    auto result =
+        solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
+                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
+    for (const auto& warning : result.warnings) context.warn(warning);
+    return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
+  }
+
+ private:
+  static void describe_matches(Declaration<SolvePoseGraph>& is) {
     is.choice("loss", &Params::loss, losses)
         .doc("robust loss of a pair's squared residual")
-        .source("[Tang2024] 2.1");
+        .source("[Tang2024] 2.4.1 for huber");
     is.param("scale", &Params::scale)
         .unit("m")
         .range(1e-4, 1000)
@@ -73,6 +113,9 @@ struct SolvePoseGraph : WholeStep {
     is.param("max_edge_weight", &Params::max_edge_weight)
         .range(1, 1e9)
         .doc("total weight of all pairs of an edge, in pairs; none: every pair counts");
+  }
+
+  static void describe_constraints(Declaration<SolvePoseGraph>& is) {
     is.param("odometry_translation_sigma", &Params::odometry_translation_sigma)
         .unit("m")
         .range(1e-6, 1e6)
@@ -95,12 +138,9 @@ struct SolvePoseGraph : WholeStep {
         .doc(
             "standard deviations at which the loss begins to down-weight a constraint that is not "
             "sequential");
-    is.param("max_rounds", &Params::max_rounds)
-        .range(1, 1000)
-        .doc("rounds of reweighting; with anneal_from two thirds of them shrink the scale");
-    is.param("max_iterations", &Params::max_iterations)
-        .range(1, 10000)
-        .doc("iterations of Levenberg-Marquardt in one round");
+  }
+
+  static void describe_uncertainty(Declaration<SolvePoseGraph>& is) {
     is.param("estimate_variance", &Params::estimate_variance)
         .doc(
             "weight edges relative to sequential constraints by their mutual disagreement "
@@ -117,32 +157,8 @@ struct SolvePoseGraph : WholeStep {
         .range(0.01, 1000)
         .doc(
             "factor on the standard deviations, since edges that share a segment share its errors");
-    is.param("tolerance", &Params::tolerance)
-        .unit("m")
-        .range(0, 1)
-        .doc("rounds end when no pose moves by more than this, a rotation taken at 10 m");
   }
 
-  Out run(const In& in, const Params& params, Context& context) const {
-    if (!in.matches && in.constraints.empty())
-      throw Error("solve.pose_graph has nothing to solve: wire 'matches', 'constraints' or both");
-    std::vector<One<Matches>> held;
-    std::vector<MatchedEdge> edges;
-    if (in.matches) {
-      held.resize(in.matches.size());
-      context.parallel(held.size(), [&](std::size_t k) { held[k] = in.matches.open(k); });
-      for (std::size_t k = 0; k < held.size(); ++k)
-        edges.push_back({in.matches.edges().list[k], &*held[k]});
-    }
-    const Constraints constraints = joined(in.constraints);
-    auto result =
-        solve_pose_graph(*in.poses, edges, in.constraints.empty() ? nullptr : &constraints, params,
-                         [&](std::size_t n, const auto& body) { context.parallel(n, body); });
-    for (const auto& warning : result.warnings) context.warn(warning);
-    return {std::move(result.poses), std::move(result.metrics), std::move(result.uncertainty)};
-  }
-
- private:
   /// One graph of all; those that hold nothing say nothing of the plane.
   static Constraints joined(const Several<Constraints>& several) {
     Constraints all;
@@ -164,6 +180,6 @@ struct SolvePoseGraph : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph
 
-PLUMB_MODULE(plumb::SolvePoseGraph)
+PLUMB_MODULE(plumb::solve_pose_graph::SolvePoseGraph)

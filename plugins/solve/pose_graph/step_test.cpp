@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include <gmock/gmock.h>
 
 #include "graph_testing.hpp"
@@ -6,16 +8,8 @@
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 namespace {
-
-struct Held : Collection {
-  std::vector<AnyValue> items;
-  Edges graph;
-  std::size_t size() const override { return items.size(); }
-  AnyValue open(std::size_t k) const override { return items[k]; }
-  const Edges* edges() const override { return &graph; }
-};
 
 struct Solved {
   Poses poses;
@@ -24,14 +18,12 @@ struct Solved {
 
 Solved run(const TestGraph& g, const ParameterValues& values, TestContext& context,
            bool wire_matches = true) {
-  auto held = std::make_shared<Held>();
-  held->graph = {static_cast<std::uint32_t>(g.truth.size()), g.edges};
-  for (const auto& m : g.matches) held->items.push_back(any_value(m));
   PortInput inputs[4];
   inputs[0].wired = true;
   inputs[0].one = any_value(g.drifted);
   inputs[1].wired = wire_matches;
-  inputs[1].each = held;
+  inputs[1].each =
+      held(g.matches, any_value(Edges{static_cast<std::uint32_t>(g.truth.size()), g.edges}));
   PortOutput outputs[3];
   const Step& step = *plumb_module()->steps[0];
   step.run(step.parameters(values).get(), inputs, outputs, context);
@@ -141,4 +133,4 @@ TEST(SolvePoseGraph, RefusesParametersThatDoNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

@@ -2,7 +2,7 @@
 
 #include "parts.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 const char* status_of(double mean_weight) {
   return mean_weight >= accepted_from    ? "accepted"
@@ -110,4 +110,4 @@ std::vector<std::string> Verdict::warnings(std::vector<std::vector<std::uint32_t
           "odometry_rotation_sigma"};
 }
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

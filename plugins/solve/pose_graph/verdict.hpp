@@ -3,7 +3,7 @@
 
 #include "edge_state.hpp"
 
-namespace plumb {
+namespace plumb::solve_pose_graph {
 
 /// Mean weight from which an edge counts as accepted, and under which as rejected; between them it
 /// is down-weighted.
@@ -37,4 +37,4 @@ class Verdict {
   bool constraints_ = false, prior_ = false;
 };
 
-}  // namespace plumb
+}  // namespace plumb::solve_pose_graph

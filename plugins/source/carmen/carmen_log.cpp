@@ -7,7 +7,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 enum class Kind { flaser, robot_laser, raw_laser, odometry, other };
@@ -181,16 +181,16 @@ void place_by_odometry(std::vector<LaserScan>& scans, const std::vector<std::siz
     const Odometry& a = after == odometry.begin() ? b : *(after - 1);
     const double between = b.stamp - a.stamp;
     const double s = between > 0 ? std::clamp((scans[k].stamp - a.stamp) / between, 0.0, 1.0) : 0.0;
-    const double turn = std::remainder(b.pose.theta - a.pose.theta, 2 * M_PI);
+    const double turn = std::remainder(b.pose.yaw - a.pose.yaw, 2 * M_PI);
     scans[k].robot = PlanarPose{a.pose.x + s * (b.pose.x - a.pose.x),
-                                a.pose.y + s * (b.pose.y - a.pose.y), a.pose.theta + s * turn};
+                                a.pose.y + s * (b.pose.y - a.pose.y), a.pose.yaw + s * turn};
   }
 }
 
 }  // namespace
 
 CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
-                       const ParallelLoop& parallel) {
+                       const parallel::Loop& parallel) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     io::refuse(file, "is empty: give a CARMEN log with FLASER or ROBOTLASER1 lines");
   Sorted messages = sorted(text);
@@ -235,4 +235,4 @@ CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
   return log;
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_carmen

@@ -15,17 +15,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-namespace plumb {
+#include "shared/parallel/loop.hpp"
+#include "shared/planar/planar_pose.hpp"
 
-/// A pose in the plane: [m], [m], [rad].
-struct PlanarPose {
-  double x = 0, y = 0, theta = 0;
-};
+namespace plumb::source_carmen {
+
+using planar::PlanarPose;
 
 /// One scan of the front laser, as it stands in the log.
 struct LaserScan {
@@ -52,14 +51,10 @@ struct CarmenLog {
       0;  ///< PARAM robot_frontlaser_offset: the laser's place ahead of the robot's middle [m]
 };
 
-/// Runs body(k) for k = 0 .. n-1, in any order.
-using ParallelLoop =
-    std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
 /// Reads the front laser's scans: FLASER lines, or where there are none ROBOTLASER1, or RAWLASER1
 /// with poses interpolated between the ODOM lines round them. Damaged messages are left out and
 /// counted. `file` is for sentences. Throws Error: no scan at all, or none that is whole.
 CarmenLog parse_carmen(const std::filesystem::path& file, std::string_view text,
-                       const ParallelLoop& parallel);
+                       const parallel::Loop& parallel);
 
-}  // namespace plumb
+}  // namespace plumb::source_carmen

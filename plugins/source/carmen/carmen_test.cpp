@@ -8,10 +8,11 @@
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 using testing::ElementsAre;
@@ -130,7 +131,7 @@ TEST_F(CarmenLogs, KeepTheFilesOrderWhenStampsStepBack) {
   auto log =
       read(flaser(ranges(3, "1"), 5) + flaser(ranges(3, "1"), 4.5) + flaser(ranges(3, "1"), 6));
   EXPECT_THAT(log.trajectory.stamps, ElementsAre(5, 4.5, 6));
-  EXPECT_EQ(log.count("stamps that step back kept in the file's order"), 1u);
+  EXPECT_EQ(log.count("stamps out of order kept in the file's order"), 1u);
 }
 
 TEST_F(CarmenLogs, GiveTheIdentityWhereOdometryIsIgnored) {
@@ -313,7 +314,7 @@ TEST_F(CarmenLogs, LeaveOutScansWhoseBeamsPointNowhere) {
 TEST_F(CarmenLogs, CountLinesThatAreNoMessage) {
   auto log = read("garbage line\n\n# a comment\nTRUEPOS 1 2 3\n" + two_scans + "180 1.0 1.0\n");
   EXPECT_EQ(log.frames.keys.size(), 2u);
-  EXPECT_EQ(log.count("lines that are not CARMEN messages left out"), 2u);
+  EXPECT_EQ(log.count("lines without a CARMEN message left out"), 2u);
 }
 
 TEST_F(CarmenLogs, SurviveBeingCutAnywhere) {
@@ -346,4 +347,4 @@ TEST_F(CarmenLogs, AreRefusedWhenThereIsNothingInThem) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_carmen

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 enum class Outcome { more, end_of_stream, damaged };
@@ -78,11 +79,11 @@ void unpack_stream(const std::filesystem::path& file, std::string_view& packed, 
     if (outcome == Outcome::end_of_stream) return;
     if (outcome == Outcome::damaged)
       io::refuse(file, "is damaged: its " + std::string(Codec::name) +
-                           " data cannot be unpacked after " + std::to_string(text.filled) +
-                           " bytes of text; fetch the file again");
+                           " data cannot be unpacked after " + counted(text.filled, "bytes") +
+                           " of text; fetch the file again");
     if (packed.empty() && made == 0)
       io::refuse(file, "is cut off: its " + std::string(Codec::name) + " data end after " +
-                           std::to_string(text.filled) + " bytes of text; fetch the file again");
+                           counted(text.filled, "bytes") + " of text; fetch the file again");
   }
 }
 
@@ -113,4 +114,4 @@ std::string unpacked(const std::filesystem::path& file) {
   return std::string(view);
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_carmen

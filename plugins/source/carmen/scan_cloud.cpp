@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -102,11 +102,6 @@ Cloud cloud_of(const LaserScan& scan, const Fan& fan, const Limits& limits, Left
   return cloud;
 }
 
-Pose in_space(const PlanarPose& pose) {
-  return {Eigen::Quaterniond(std::cos(pose.theta / 2), 0, 0, std::sin(pose.theta / 2)),
-          {pose.x, pose.y, 0}};
-}
-
 Pose mounting_of(const std::vector<LaserScan>& scans, double offset) {
   const Pose by_parameter(Eigen::Quaterniond::Identity(), {offset, 0, 0});
   std::optional<Pose> first;
@@ -121,4 +116,4 @@ Pose mounting_of(const std::vector<LaserScan>& scans, double offset) {
   return first.value_or(by_parameter);
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_carmen

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "carmen_log.hpp"
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 
 /// Beam k looks `start + k * step` [rad] to the left of straight ahead.
 struct Fan {
@@ -47,6 +47,4 @@ Cloud cloud_of(const LaserScan& scan, const Fan& fan, const Limits& limits,
 /// different one each time).
 Pose mounting_of(const std::vector<LaserScan>& scans, double offset);
 
-Pose in_space(const PlanarPose& pose);
-
-}  // namespace plumb
+}  // namespace plumb::source_carmen

@@ -1,3 +1,5 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,7 +10,7 @@
 #include "plumb/plugin/module.hpp"
 #include "scan_cloud.hpp"
 
-namespace plumb {
+namespace plumb::source_carmen {
 namespace {
 
 enum class Odometry { use, ignore };
@@ -64,9 +66,6 @@ struct Carmen : WholeStep {
   }
 
   Out run(const In&, const Params& params, Context& context) const {
-    const ParallelLoop parallel = [&](std::size_t n, const auto& body) {
-      context.parallel(n, body);
-    };
     if (std::filesystem::is_directory(params.path)) {
       const auto inside = params.path / "log.clf";
       io::refuse(params.path, "is a folder: give the log in it" +
@@ -74,7 +73,8 @@ struct Carmen : WholeStep {
                                                                    : std::string(", a .clf file")));
     }
     const std::string text = unpacked(params.path);
-    auto log = std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel));
+    auto log =
+        std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel::on(context)));
     const auto& scans = log->scans;
     if (scans.size() < 2)
       io::refuse(params.path,
@@ -132,7 +132,7 @@ struct Carmen : WholeStep {
     context.count("scans read", scans.size());
     count(context, "odometry lines beside the scans", log.odometry_lines);
     count(context, "scans of a second laser left out", log.second_laser);
-    count(context, "lines that are not CARMEN messages left out", log.no_message);
+    count(context, "lines without a CARMEN message left out", log.no_message);
     count(context, "other messages of the same laser left out", log.repeated);
     std::size_t back = 0, unknown = 0;
     bool moves = false;
@@ -140,20 +140,21 @@ struct Carmen : WholeStep {
       back += k > 0 && scans[k].stamp < scans[k - 1].stamp;
       unknown += !fan_of(scans[k], params.field_of_view).known;
       const auto &a = scans[k].robot, &b = scans[0].robot;
-      moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->theta != b->theta));
+      moves = moves || (a && b && (a->x != b->x || a->y != b->y || a->yaw != b->yaw));
     }
-    count(context, "stamps that step back kept in the file's order", back);
+    count(context, "stamps out of order kept in the file's order", back);
     const std::string file = params.path.string();
     if (log.cut + log.not_numbers)
-      context.warn(file + ":" + std::to_string(log.first_damaged) + ": " + std::to_string(log.cut) +
-                   " scans with a wrong number of words and " + std::to_string(log.not_numbers) +
-                   " with words that are not numbers are left out; this line is the first");
+      context.warn(file + ":" + std::to_string(log.first_damaged) +
+                   ": the first scan of those left out for a wrong number of words (" +
+                   std::to_string(log.cut) + ") or for words that are not numbers (" +
+                   std::to_string(log.not_numbers) + ")");
     count(context, "damaged scans left out", log.cut + log.not_numbers);
     if (unknown)
-      context.warn(file + ": " + std::to_string(unknown) + " scans have " +
+      context.warn(file + ": scans whose number of beams (" +
                    std::to_string(scans[0].ranges.size()) +
-                   " beams or another number of no known scanner; they are taken as 180 degrees: "
-                   "set field_of_view if that is wrong");
+                   " or another) is of no known scanner are taken as 180 degrees (" +
+                   std::to_string(unknown) + "): set field_of_view if that is wrong");
     if (params.odometry == Odometry::use && !moves)
       context.warn(file +
                    ": has no odometry, or the robot never moves by it; every pose is the same: set "
@@ -162,6 +163,6 @@ struct Carmen : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_carmen
 
-PLUMB_MODULE(plumb::Carmen)
+PLUMB_MODULE(plumb::source_carmen::Carmen)

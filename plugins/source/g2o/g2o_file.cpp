@@ -7,7 +7,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::source_g2o {
 namespace {
 
 struct Vertex {
@@ -197,4 +197,4 @@ class Reader {
 
 G2oGraph read_g2o(const std::filesystem::path& file) { return Reader(file).read(); }
 
-}  // namespace plumb
+}  // namespace plumb::source_g2o

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::source_g2o {
 
 /// A graph and where its vertices start.
 struct G2oGraph {
@@ -27,4 +27,4 @@ struct G2oGraph {
 /// vertex to itself, SE(2) and SE(3) mixed, no vertex.
 G2oGraph read_g2o(const std::filesystem::path& file);
 
-}  // namespace plumb
+}  // namespace plumb::source_g2o

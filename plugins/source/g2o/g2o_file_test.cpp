@@ -8,10 +8,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_g2o {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +169,4 @@ INSTANTIATE_TEST_SUITE_P(Files, KnownGraph,
                                          KnownFile{"sphere2500.g2o", 2500, 4949, false}));
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_g2o

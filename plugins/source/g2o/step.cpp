@@ -1,7 +1,9 @@
+#include "plumb/slam/step.hpp"
+
 #include "g2o_file.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::source_g2o {
 namespace {
 
 struct G2o : WholeStep {
@@ -32,6 +34,6 @@ struct G2o : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_g2o
 
-PLUMB_MODULE(plumb::G2o)
+PLUMB_MODULE(plumb::source_g2o::G2o)

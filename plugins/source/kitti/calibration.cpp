@@ -4,7 +4,7 @@
 
 #include "plumb/data/io/file_text.hpp"
 
-namespace plumb {
+namespace plumb::source_kitti {
 
 Pose read_calibration(const std::filesystem::path& file) {
   const io::FileBytes bytes(file);
@@ -38,4 +38,4 @@ void camera_to_laser(Trajectory& trajectory, const Pose& T_camera_laser) {
   for (Pose& pose : trajectory.T_world_frame) pose = T_laser_camera * pose * T_camera_laser;
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_kitti

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::source_kitti {
 
 /// T_camera_laser: the line `Tr:` (or `Tr_velo_to_cam:`) of a calib.txt, 12 numbers, a 3x4 matrix
 /// [R | t] row by row. Throws Error with file and line: cannot be opened, no such line, no 12
@@ -17,4 +17,4 @@ Pose read_calibration(const std::filesystem::path& file);
 /// forward, z up.
 void camera_to_laser(Trajectory& trajectory, const Pose& T_camera_laser);
 
-}  // namespace plumb
+}  // namespace plumb::source_kitti

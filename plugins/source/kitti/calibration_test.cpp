@@ -9,10 +9,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_kitti {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +128,4 @@ TEST_F(KittiFolder, IsRefusedWithACalibrationThatIsNone) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_kitti

@@ -1,13 +1,15 @@
+#include "plumb/slam/step.hpp"
+
 #include <optional>
 
 #include "calibration.hpp"
-#include "plumb/data/io/bin_file.hpp"
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/data/io/frame_files.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/bin_file.hpp"
+#include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
-namespace plumb {
+namespace plumb::source_kitti {
 namespace {
 
 struct Kitti : WholeStep {
@@ -62,6 +64,6 @@ struct Kitti : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_kitti
 
-PLUMB_MODULE(plumb::Kitti)
+PLUMB_MODULE(plumb::source_kitti::Kitti)

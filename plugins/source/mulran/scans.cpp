@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
-namespace plumb {
+namespace plumb::source_mulran {
 
 namespace fs = std::filesystem;
 
@@ -70,4 +70,4 @@ Pose mulran_laser_on_vehicle() {
   return {rotation.normalized(), Eigen::Vector3d(1.7042, -0.021, 1.8047)};
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_mulran

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "plumb/data/io/frame_files.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::source_mulran {
 
 /// A scan's file and its stamp [s].
 struct Scan {
@@ -37,4 +37,4 @@ PlacedScans placed(const std::vector<Scan>& scans, const Trajectory& trajectory,
 /// OS1-64.
 Pose mulran_laser_on_vehicle();
 
-}  // namespace plumb
+}  // namespace plumb::source_mulran

@@ -8,10 +8,11 @@
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_mulran {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +146,4 @@ TEST_F(MulRanFolder, IsRefusedWhenMissingOrEmpty) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_mulran

@@ -1,10 +1,13 @@
-#include "plumb/data/io/bin_file.hpp"
+#include "plumb/slam/step.hpp"
+
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/file_text.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/bin_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "scans.hpp"
 
-namespace plumb {
+namespace plumb::source_mulran {
 namespace {
 
 enum class Body { sensor, vehicle };
@@ -52,7 +55,7 @@ struct MulRan : WholeStep {
       context.count("frames outside the trajectory's time left out", placing.outside);
     if (placing.in_gap) context.count("frames in gaps of the trajectory left out", placing.in_gap);
     if (placing.scans.size() < 2)
-      io::refuse(params.path, "has " + std::to_string(scans.size()) + " frames, of which " +
+      io::refuse(params.path, "has " + counted(scans.size(), "frames") + ", of which " +
                                   std::to_string(placing.scans.size()) +
                                   " lie within the time of " + poses_from.string() +
                                   ", but at least 2 are needed: give the trajectory of this drive");
@@ -79,6 +82,6 @@ struct MulRan : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_mulran
 
-PLUMB_MODULE(plumb::MulRan)
+PLUMB_MODULE(plumb::source_mulran::MulRan)

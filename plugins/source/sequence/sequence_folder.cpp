@@ -1,6 +1,6 @@
 #include "sequence_folder.hpp"
 
-namespace plumb {
+namespace plumb::source_sequence {
 
 void bring_to_frame(Cloud& cloud, const Pose& T_world_frame) {
   const Pose T_frame_world = T_world_frame.inverse();
@@ -21,4 +21,4 @@ void bring_to_frame(Cloud& cloud, const Pose& T_world_frame) {
   }
 }
 
-}  // namespace plumb
+}  // namespace plumb::source_sequence

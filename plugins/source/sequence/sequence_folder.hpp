@@ -1,13 +1,13 @@
 #pragma once
 /// A frame that was stored in world coordinates, as the sensor saw it.
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
 
-namespace plumb {
+namespace plumb::source_sequence {
 
 /// The cloud, given in world coordinates, in those of the frame: points by T_world_frame's inverse,
 /// reckoned in double; normals turned.
 void bring_to_frame(Cloud& cloud, const Pose& T_world_frame);
 
-}  // namespace plumb
+}  // namespace plumb::source_sequence

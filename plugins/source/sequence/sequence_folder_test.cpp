@@ -7,13 +7,14 @@
 #include <limits>
 
 #include "plumb/data/error.hpp"
-#include "plumb/data/io/cloud_file.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::source_sequence {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +203,4 @@ TEST_F(Folder, IsRefusedWhenAListedFrameIsMissing) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_sequence

@@ -1,13 +1,15 @@
+#include "plumb/slam/step.hpp"
+
 #include <memory>
 #include <optional>
 
-#include "plumb/data/io/cloud_file.hpp"
-#include "plumb/data/io/frame_files.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 #include "sequence_folder.hpp"
 
-namespace plumb {
+namespace plumb::source_sequence {
 namespace {
 
 enum class Coordinates { sensor, world };
@@ -75,6 +77,6 @@ struct Sequence : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_sequence
 
-PLUMB_MODULE(plumb::Sequence)
+PLUMB_MODULE(plumb::source_sequence::Sequence)

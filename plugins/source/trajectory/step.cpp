@@ -1,7 +1,9 @@
-#include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+
+namespace plumb::source_trajectory {
 namespace {
 
 struct SourceTrajectory : WholeStep {
@@ -29,6 +31,6 @@ struct SourceTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_trajectory
 
-PLUMB_MODULE(plumb::SourceTrajectory)
+PLUMB_MODULE(plumb::source_trajectory::SourceTrajectory)

@@ -1,15 +1,17 @@
-#include "plumb/data/io/file_testing.hpp"
-#include "plumb/data/trajectory.hpp"
-#include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "plumb/data/io/file_testing.hpp"
+#include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/trajectory.hpp"
+
+namespace plumb::source_trajectory {
 namespace {
 
 TEST(SourceTrajectory, GivesTheFilesPosesInItsOrder) {
   const io::TestFolder folder;
   const auto file = folder.write("a.tum", "2 1 0 0 0 0 0 1\n# noted\n1.5 1 2 0 0 0 1 0\n");
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   const auto read = step.set("path", file.string()).run<Trajectory>("trajectory", context);
   EXPECT_EQ(read.stamps, (std::vector<double>{2, 1.5}));
   EXPECT_EQ(read.T_world_frame[1].translation, Eigen::Vector3d(1, 2, 0));
@@ -19,10 +21,10 @@ TEST(SourceTrajectory, GivesTheFilesPosesInItsOrder) {
 TEST(SourceTrajectory, RefusesWhatIsNone) {
   const io::TestFolder folder;
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.set("path", folder.write("a.tum", "hello\n").string());
   EXPECT_THROW(step.run<Trajectory>("trajectory", context), Error);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::source_trajectory

@@ -1,10 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <optional>
 
-#include "plumb/geometry/spots.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
+#include "shared/thinning/spots.hpp"
 #include "window.hpp"
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 namespace {
 
 struct SlidingWindow : WholeStep {
@@ -51,8 +54,7 @@ struct SlidingWindow : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t count = in.segments.size();
     if (in.poses->size() != count || (in.edges && in.edges->segments != count))
-      throw Error("there are " + std::to_string(count) + " segments, " +
-                  std::to_string(in.poses->size()) + " poses" +
+      throw Error("got " + counted(count, "segments") + ", " + counted(in.poses->size(), "poses") +
                   (in.edges ? " and edges between " + std::to_string(in.edges->segments) : "") +
                   "; wire those of the same segments");
     std::vector<One<Segment>> scans(count);
@@ -75,7 +77,7 @@ struct SlidingWindow : WholeStep {
                         const Windows& windows, std::size_t k,
                         const std::optional<double>& voxel_size) {
     Cloud all;
-    std::optional<Spots> spots;
+    std::optional<thinning::Spots> spots;
     if (voxel_size) {
       spots.emplace(*voxel_size);
     } else {
@@ -101,6 +103,6 @@ struct SlidingWindow : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window
 
-PLUMB_MODULE(plumb::SlidingWindow)
+PLUMB_MODULE(plumb::stitch_sliding_window::SlidingWindow)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 
 Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
                         std::size_t after) {
@@ -42,4 +42,4 @@ Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frame
   return windows;
 }
 
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window

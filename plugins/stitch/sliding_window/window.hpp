@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 
 /// Submap k is made of the scans members[first[k] .. end[k]-1], which rise.
 struct Windows {
@@ -20,4 +20,4 @@ struct Windows {
 Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
                         std::size_t after);
 
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window

@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::stitch_sliding_window {
 namespace {
 
 using testing::ElementsAre;
@@ -125,4 +126,4 @@ TEST(SlidingWindow, RefusesPosesOfOtherSegments) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::stitch_sliding_window

@@ -1,16 +1,16 @@
 #include "submap.hpp"
 
-#include "plumb/geometry/line_normal.hpp"
-#include "plumb/geometry/spots.hpp"
+#include "shared/planar/line_normal.hpp"
+#include "shared/thinning/spots.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 namespace {
 
 constexpr double search_resolution = 0.05;  // [m]
 constexpr double search_sigma = 0.1;        // [m] how far off a point may lie and still count
 
-Prior prior_at(const PlanarPose& start, bool known) {
-  return known ? Prior{start, 0.1, 0.05, 0.05} : Prior{start, 0.1, 0.3, 0.3};
+planar::Prior prior_at(const PlanarPose& start, bool known) {
+  return known ? planar::Prior{start, 0.1, 0.05, 0.05} : planar::Prior{start, 0.1, 0.3, 0.3};
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ void Submap::add(const Cloud& scan, const PlanarPose& T_world_scan, bool with_no
 }
 
 void Submap::stitch() {
-  std::optional<Spots> spots;
+  std::optional<thinning::Spots> spots;
   if (options_.voxel_size) spots.emplace(*options_.voxel_size);
   cloud_ = {};
   const PlanarPose T_newest_world = newest().inverse();
@@ -55,14 +55,14 @@ void Submap::find_normals() {
     tree_->within(here, static_cast<float>(options_.radius), found, false);
     round.clear();
     for (const auto& neighbour : found) round.push_back(cloud_.point(neighbour.index) - here);
-    const Eigen::Vector3f normal = line_normal(round.data(), round.size());
+    const Eigen::Vector3f normal = planar::line_normal(round.data(), round.size());
     cloud_.nx[k] = normal.x(), cloud_.ny[k] = normal.y();
   }
 }
 
 IcpResult Submap::align(const Cloud& scan, const PlanarPose& start,
                         const IcpOptions& options) const {
-  IcpResult result = plumb::align(cloud_, *tree_, scan, newest().inverse() * start, options);
+  IcpResult result = planar::align(cloud_, *tree_, scan, newest().inverse() * start, options);
   result.T = newest() * result.T;
   return result;
 }
@@ -90,9 +90,9 @@ std::optional<PlanarPose> Submap::search(const Cloud& scan, const PlanarPose& st
       best_pose(field(), scan.x, scan.y,
                 {centre, window, window, breadth == Breadth::near ? options_.search_angle : M_PI,
                  prior_at(centre, known)},
-                yaw_step_for(scan.x, scan.y, search_resolution), 0);
+                planar::yaw_step_for(scan.x, scan.y, search_resolution), 0);
   if (!peak) return std::nullopt;
   return newest() * peak->pose;
 }
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

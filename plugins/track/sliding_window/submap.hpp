@@ -5,11 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
-#include "plumb/geometry/correlative_search.hpp"
-#include "plumb/geometry/planar_icp.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "shared/planar/correlative_search.hpp"
+#include "shared/planar/icp.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
+
+using planar::IcpOptions;
+using planar::IcpResult;
+using planar::LikelihoodField;
+using planar::PlanarPose;
 
 struct SubmapOptions {
   std::uint32_t frames = 10;  ///< scans in the window
@@ -65,4 +70,4 @@ class Submap {
   mutable std::optional<LikelihoodField> field_;  ///< made at the first search
 };
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 namespace {
 
 class Tracker {
@@ -15,7 +16,7 @@ class Tracker {
         initial_(initial),
         options_(options),
         submap_(options),
-        lines_(options.icp.metric == Metric::line),
+        lines_(options.icp.metric == planar::Metric::line),
         poses_(scans.size()) {
     result_.poses = initial;
     const auto moved = [&](const Pose& pose) {
@@ -29,7 +30,7 @@ class Tracker {
   Tracked run(const Edges& chain) {
     if (chain.size() == 0) return std::move(result_);
     const std::uint32_t first = chain.list.front().i;
-    place(first, planar(initial_.T_world_segment[first]));
+    place(first, planar::projected(initial_.T_world_segment[first]));
     submap_.add(*scans_[first], poses_[first], lines_);
     for (const Edge& edge : chain.list) {
       const bool fits = follow(edge);
@@ -45,7 +46,7 @@ class Tracker {
   bool follow(const Edge& edge) {
     const bool known = has_odometry_;
     const PlanarPose start =
-        poses_[edge.i] * (known ? planar(initial_.relative(edge.i, edge.j)) : motion_);
+        poses_[edge.i] * (known ? planar::projected(initial_.relative(edge.i, edge.j)) : motion_);
     IcpOptions icp = options_.icp;
     if (!known) icp.start_sigma.reset();
     const Cloud& scan = *scans_[edge.j];
@@ -92,11 +93,11 @@ class Tracker {
   bool far(const PlanarPose& pose) const {
     const PlanarPose from = submap_.newest();
     return std::hypot(pose.x - from.x, pose.y - from.y) > options_.min_translation ||
-           std::abs(wrapped(pose.yaw - from.yaw)) > options_.min_rotation;
+           std::abs(planar::wrapped(pose.yaw - from.yaw)) > options_.min_rotation;
   }
 
   void place(std::uint32_t k, PlanarPose pose) {
-    pose.yaw = wrapped(pose.yaw);
+    pose.yaw = planar::wrapped(pose.yaw);
     poses_[k] = pose;
     result_.poses.T_world_segment[k] = in_space(pose);
   }
@@ -129,9 +130,9 @@ class Tracker {
 Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
               const TrackOptions& options) {
   if (initial.size() != scans.size() || chain.segments != scans.size())
-    throw Error("there are " + std::to_string(scans.size()) + " scans, " +
-                std::to_string(initial.size()) + " poses and a chain of " +
-                std::to_string(chain.segments) + "; wire those of the same scans");
+    throw Error("got " + counted(scans.size(), "scans") + ", " + counted(initial.size(), "poses") +
+                " and a chain of " + std::to_string(chain.segments) +
+                "; wire those of the same scans");
   for (std::size_t k = 0; k < chain.size(); ++k)
     if (chain.list[k].i >= chain.list[k].j || (k > 0 && chain.list[k].i != chain.list[k - 1].j))
       throw Error("edge " + std::to_string(k) + " joins scans " + std::to_string(chain.list[k].i) +
@@ -141,4 +142,4 @@ Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const E
   return Tracker(scans, initial, options).run(chain);
 }
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

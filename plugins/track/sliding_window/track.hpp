@@ -1,16 +1,20 @@
 #pragma once
-/// Tracks a 2-D laser: registers each scan to the submap of those before it. Source:
-/// [Zhang2023] 2.
+/// Tracks a 2-D laser: registers each scan to the submap of those before it. Source: the window is
+/// that of [Zhang2023] 2, where adjacent scans are registered to each other; to the submap is ours.
 
 #include <span>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 #include "submap.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
+
+using planar::IcpOptions;
+using planar::Metric;
+using planar::Stop;
 
 struct TrackOptions : SubmapOptions {
-  IcpOptions icp;
+  IcpOptions icp = {.stop = Stop::ratio, .metric = Metric::line};
   double min_translation =
       0.25;  ///< [m] a scan farther than this from the window's newest joins the window
   double min_rotation = 15 * deg;  ///< [rad] or rotated by more
@@ -37,4 +41,4 @@ struct Tracked {
 Tracked track(std::span<const Cloud* const> scans, const Poses& initial, const Edges& chain,
               const TrackOptions& options);
 
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

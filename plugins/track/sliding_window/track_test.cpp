@@ -1,10 +1,11 @@
 #include "track.hpp"
 
-#include "plumb/data/segment.hpp"
-#include "plumb/geometry/planar_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/planar/room_testing.hpp"
 
-namespace plumb {
+namespace plumb::track_sliding_window {
 namespace {
 
 /// A way round a room of 8 m x 6 m, its scans, and odometry that drifts from it.
@@ -19,7 +20,7 @@ struct Drive {
     for (std::size_t k = 0; k < count; ++k) {
       const double phase = 0.05 * static_cast<double>(k);
       truth.push_back({0.6 * std::cos(phase), 0.6 * std::sin(phase), phase});
-      scans.push_back(room_scan<Cloud>(truth[k], 360, 0.01, 10 + static_cast<unsigned>(k)));
+      scans.push_back(planar::room_scan<Cloud>(truth[k], 360, 0.01, 10 + static_cast<unsigned>(k)));
       if (k > 0) {
         const PlanarPose step = truth[k - 1].inverse() * truth[k];
         wheels = wheels * PlanarPose{slip * step.x, slip * step.y, slip * step.yaw};
@@ -39,14 +40,16 @@ struct Drive {
   }
   /// How far the pose of scan k is off, [m] and [rad] together; all as seen from scan 0.
   double error(const Poses& poses, std::size_t k) const {
-    const PlanarPose is = planar(poses.relative(0, k)), should = truth[0].inverse() * truth[k];
-    return off(is, should) + std::abs(wrapped(is.yaw - should.yaw));
+    const PlanarPose is = planar::projected(poses.relative(0, k)),
+                     should = truth[0].inverse() * truth[k];
+    return off(is, should) + std::abs(planar::wrapped(is.yaw - should.yaw));
   }
 };
 
 TrackOptions lines() {
   TrackOptions options;
-  options.icp.stop = Stop::ratio, options.icp.metric = Metric::line, options.icp.start_sigma = 0.05;
+  options.icp.stop = planar::Stop::ratio, options.icp.metric = planar::Metric::line,
+  options.icp.start_sigma = 0.05;
   return options;
 }
 
@@ -86,7 +89,8 @@ TEST(Track, SearchesWhereTheRobotWasTurnedAround) {
   // From scan 20 on the robot stands turned by 2 rad and its wheels do not know.
   for (std::size_t k = 20; k < 40; ++k) {
     drive.truth[k] = drive.truth[k] * PlanarPose{0, 0, 2};
-    drive.scans[k] = room_scan<Cloud>(drive.truth[k], 360, 0.01, 50 + static_cast<unsigned>(k));
+    drive.scans[k] =
+        planar::room_scan<Cloud>(drive.truth[k], 360, 0.01, 50 + static_cast<unsigned>(k));
   }
   const Tracked tracked = drive.follow(lines());
   EXPECT_LT(drive.error(tracked.poses, 39), 0.04);
@@ -216,7 +220,7 @@ TEST(TrackStep, GivesPosesAndWhatItCounted) {
   for (const Cloud& scan : drive.scans)
     segments.push_back(Segment().with(scan, std::vector<std::uint16_t>(scan.size(), 0)));
   TestContext context;
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.each("segments", segments)
       .with("poses", drive.odometry)
       .with("edges", drive.chain)
@@ -229,4 +233,4 @@ TEST(TrackStep, GivesPosesAndWhatItCounted) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::track_sliding_window

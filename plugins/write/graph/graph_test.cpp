@@ -5,7 +5,7 @@
 
 #include "graph_text.hpp"
 
-namespace plumb {
+namespace plumb::write_graph {
 namespace {
 
 Eigen::Vector3d gauss3(std::mt19937& random, double sigma) {
@@ -111,4 +111,4 @@ TEST(G2oText, IsPlanarAndKeepsTheFilesNumbersWhereTheConstraintsAreAndDo) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_graph

@@ -3,9 +3,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "plumb/geometry/pair_moments.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 
-namespace plumb {
+namespace plumb::write_graph {
 namespace {
 
 PairForm form_of(const Matches& matches, const Pose& T_j_i) {
@@ -100,4 +100,4 @@ std::string g2o_text(const Poses& poses, const Constraints& constraints) {
   return text;
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_graph

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
+#include "plumb/slam/graph.hpp"
 
-namespace plumb {
+namespace plumb::write_graph {
 
 /// The relative pose that an edge's pairs say, fitted from `T_i_j` on, and its information: J'J /
 /// sigma^2, J the derivative of the pairs' residuals by g2o's [t; q.vec]. sigma [m] is `noise`, or
@@ -21,4 +21,4 @@ std::optional<RelativePose> constraint_of(const Edge& edge, const Matches& match
 /// from 0 if it is empty. Numbers are the shortest that read back as the same.
 std::string g2o_text(const Poses& poses, const Constraints& constraints);
 
-}  // namespace plumb
+}  // namespace plumb::write_graph

@@ -1,7 +1,11 @@
+#include "plumb/slam/step.hpp"
+
 #include "graph_text.hpp"
+#include "plumb/data/counted.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_graph {
 namespace {
 
 struct WriteGraph : WholeStep {
@@ -45,11 +49,10 @@ struct WriteGraph : WholeStep {
     Constraints graph;
     if (in.constraints) graph = *in.constraints;
     if (!graph.ids.empty() && graph.ids.size() != in.poses->size())
-      throw Error("the constraints have " + std::to_string(graph.ids.size()) +
-                  " vertices but there are " + std::to_string(in.poses->size()) +
-                  " poses; wire poses of the same graph");
+      throw Error("the constraints are of " + counted(graph.ids.size(), "poses") + ", but got " +
+                  std::to_string(in.poses->size()) + "; wire poses of the same graph");
     if (in.matches) {
-      const auto& edges = in.matches.edges().list;
+      const auto& edges = edges_of(in.matches).list;
       std::vector<std::optional<RelativePose>> found(edges.size());
       for (const auto& e : edges)
         if (e.i >= in.poses->size() || e.j >= in.poses->size())
@@ -69,6 +72,6 @@ struct WriteGraph : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_graph
 
-PLUMB_MODULE(plumb::WriteGraph)
+PLUMB_MODULE(plumb::write_graph::WriteGraph)

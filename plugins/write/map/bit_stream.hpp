@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace plumb {
+namespace plumb::write_map {
 
 class BitWriter {
  public:
@@ -68,4 +68,4 @@ class BitReader {
   std::size_t at_ = 0;
 };
 
-}  // namespace plumb
+}  // namespace plumb::write_map

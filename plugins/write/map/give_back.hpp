@@ -5,7 +5,7 @@
 #include <malloc.h>
 #endif
 
-namespace plumb {
+namespace plumb::write_map {
 
 /// Without this the many small pieces that a map frees would stay with the process while the file
 /// that they become takes the same again.
@@ -15,4 +15,4 @@ inline void give_back() {
 #endif
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_map

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 
 Eigen::Vector3d map_origin(const Trajectory& trajectory) {
   bool near = true;
@@ -29,4 +29,4 @@ std::string map_header(std::size_t points, const Eigen::Vector3d& origin, MapFor
   return header;
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_map

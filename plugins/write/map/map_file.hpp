@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 
 enum class MapFormat { ply, pcd };
 
@@ -17,4 +17,4 @@ Eigen::Vector3d map_origin(const Trajectory& trajectory);
 /// is told in a comment: "origin X Y Z: add to coordinates for world coordinates [m]".
 std::string map_header(std::size_t points, const Eigen::Vector3d& origin, MapFormat format);
 
-}  // namespace plumb
+}  // namespace plumb::write_map

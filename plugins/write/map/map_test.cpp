@@ -1,23 +1,24 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <thread>
 
 #include "map_file.hpp"
-#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/step.hpp"
+#include "shared/parallel/loop_testing.hpp"
 #include "voxel_map.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::write_map {
 namespace {
 
 Cloud random_cloud(std::uint64_t seed, int points, double size) {
@@ -31,14 +32,10 @@ Cloud random_cloud(std::uint64_t seed, int points, double size) {
   return cloud;
 }
 
-void in_turn(std::size_t n, const std::function<void(std::size_t)>& body) {
-  for (std::size_t k = 0; k < n; ++k) body(k);
-}
-
 /// Adds one frame. Tiles that it does not meet are closed.
 void add_all(VoxelMap& map, const Cloud& cloud, const Pose& pose) {
   const auto cells = map.cells_of(cloud, pose);
-  map.add({&cells, 1}, in_turn, 1);
+  map.add({&cells, 1}, parallel::in_order, 1);
 }
 
 /// The points that the map writes.
@@ -126,7 +123,7 @@ TEST(VoxelMap, WritesTheSameWhateverIsAddedAtOnceWheneverTilesAreClosedAndWherev
           map.cells_of(random_cloud(k, 2000, 8),
                        Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(3 * way, 0, 0))));
       if (frames.size() < together && k < 23) continue;
-      map.add(frames, in_turn, idle);
+      map.add(frames, parallel::in_order, idle);
       frames.clear();
     }
     FileBytes bytes;
@@ -150,7 +147,7 @@ TEST(VoxelMap, KeepsOpenWhatTheSensorSeesHoweverLongTheWay) {
       const auto cells =
           map.cells_of(random_cloud(static_cast<std::uint64_t>(k), 1000, 20),
                        Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(2.0 * k, 0, 0)));
-      map.add({&cells, 1}, in_turn, 4);
+      map.add({&cells, 1}, parallel::in_order, 4);
       most = std::max(most, map.open());
     }
     return static_cast<double>(most);
@@ -228,33 +225,13 @@ TEST(WriteMap, TellsItsOriginFarFromTheWorlds) {
   EXPECT_EQ(read_back(pcd, ".pcd").size(), read_back(ply, ".ply").size());
 }
 
-/// Runs parallel bodies backwards.
-struct Backwards : TestContext {
-  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
-    for (std::size_t k = n; k > 0; --k) body(k - 1);
-  }
-};
-
-/// Two threads.
-struct Two : TestContext {
-  void parallel(std::size_t n, const std::function<void(std::size_t)>& body) override {
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-      for (std::size_t k; (k = next++) < n;) body(k);
-    };
-    std::thread other(work);
-    work();
-    other.join();
-  }
-};
-
 TEST(WriteMap, GivesTheSameBytesInAnyOrderOfWorkAndForAnyNumberOfThreads) {
   TestContext forwards;
-  Backwards backwards;
-  Two two;
+  parallel::BackwardsContext backwards;
+  parallel::ThreadedContext threads;
   const auto expected = document(100, {0, 0, 0}, "ply", forwards, 100);
   EXPECT_TRUE(document(100, {0, 0, 0}, "ply", backwards, 100) == expected);
-  EXPECT_TRUE(document(100, {0, 0, 0}, "ply", two, 100) == expected);
+  EXPECT_TRUE(document(100, {0, 0, 0}, "ply", threads, 100) == expected);
 }
 
 TEST(WriteMap, RefusesATrajectoryOfOtherFrames) {
@@ -263,4 +240,4 @@ TEST(WriteMap, RefusesATrajectoryOfOtherFrames) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_map

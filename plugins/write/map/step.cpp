@@ -1,11 +1,15 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "map_file.hpp"
+#include "plumb/data/counted.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "voxel_map.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 namespace {
 
 struct WriteMap : WholeStep {
@@ -53,15 +57,14 @@ struct WriteMap : WholeStep {
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
     if (frames != in.trajectory->size())
-      throw Error("there are " + std::to_string(frames) + " frames but " +
-                  std::to_string(in.trajectory->size()) +
-                  " poses in the trajectory; wire the trajectory of these frames");
+      throw Error("got " + counted(frames, "frames") + " but " +
+                  counted(in.trajectory->size(), "poses") +
+                  " in the trajectory; wire the trajectory of these frames");
     const Eigen::Vector3d origin = map_origin(*in.trajectory);
     VoxelMap map(params.voxel_size, origin);
     std::uint64_t points = 0, too_far = 0;
     std::vector<VoxelMap::FrameCells> cells(block);
     std::vector<std::uint64_t> counts(block);
-    const auto parallel = [&](std::size_t n, const auto& body) { context.parallel(n, body); };
     for (std::size_t first = 0; first < frames; first += block) {
       const std::size_t n = std::min(block, frames - first);
       context.parallel(n, [&](std::size_t k) {
@@ -69,7 +72,7 @@ struct WriteMap : WholeStep {
         cells[k] = map.cells_of(frame->cloud, in.trajectory->T_world_frame[first + k]);
         counts[k] = frame->cloud.size();
       });
-      map.add({cells.data(), n}, parallel);
+      map.add({cells.data(), n}, parallel::on(context));
       for (std::size_t k = 0; k < n; ++k) points += counts[k], too_far += cells[k].too_far;
     }
     cells = std::vector<VoxelMap::FrameCells>();
@@ -87,6 +90,6 @@ struct WriteMap : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_map
 
-PLUMB_MODULE(plumb::WriteMap)
+PLUMB_MODULE(plumb::write_map::WriteMap)

@@ -4,7 +4,7 @@
 
 #include "bit_stream.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 namespace {
 
 std::size_t slot_of(std::uint16_t place, std::size_t slots) {
@@ -113,4 +113,4 @@ std::vector<Cell> Tile::cells() const {
   return cells;
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_map

@@ -7,7 +7,7 @@
 
 #include "plumb/data/io/scratch_file.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 
 /// One occupied cell: where in its tile it is, how many points it has had, and the sum of their
 /// places inside it. 16 bytes.
@@ -66,4 +66,4 @@ class Tile {
   std::uint32_t used_ = 0;
 };
 
-}  // namespace plumb
+}  // namespace plumb::write_map

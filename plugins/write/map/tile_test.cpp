@@ -7,7 +7,7 @@
 #include "bit_stream.hpp"
 #include "plumb/plugin/context.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 namespace {
 
 TEST(BitStream, GivesBackWhatWasPut) {
@@ -74,4 +74,4 @@ TEST(Tile, IsEmptyWithoutPointsAndStaysSoWhenClosed) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_map

@@ -8,7 +8,7 @@
 #include "give_back.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 namespace {
 
 constexpr double parts = 65536;         ///< of a cell's edge
@@ -88,7 +88,7 @@ VoxelMap::FrameCells by_tile(const std::vector<NamedCell>& found) {
 }
 
 template <class Body>
-void each(const VoxelMap::Parallel& parallel, std::size_t count, const Body& body) {
+void each(const parallel::Loop& parallel, std::size_t count, const Body& body) {
   constexpr std::size_t together = 8;  // tiles a task: most are small
   parallel((count + together - 1) / together, [&](std::size_t task) {
     for (std::size_t k = task * together; k < std::min(count, (task + 1) * together); ++k) body(k);
@@ -144,7 +144,8 @@ VoxelMap::FrameCells VoxelMap::cells_of(const Cloud& cloud, const Pose& T_world_
   return frame;
 }
 
-void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel, std::size_t idle) {
+void VoxelMap::add(std::span<const FrameCells> frames, const parallel::Loop& parallel,
+                   std::size_t idle) {
   struct Piece {
     std::uint64_t tile;
     std::uint32_t frame, part;
@@ -193,7 +194,7 @@ void VoxelMap::add(std::span<const FrameCells> frames, const Parallel& parallel,
 
 /// Once the closed tiles take more memory than they may, all of them go to disk, and from then on
 /// each that is closed.
-void VoxelMap::sink(std::span<Entry* const> closed, const Parallel& parallel) {
+void VoxelMap::sink(std::span<Entry* const> closed, const parallel::Loop& parallel) {
   if (!scratch_) {
     for (const Entry* entry : closed)
       packed_ +=
@@ -251,4 +252,4 @@ void VoxelMap::write(FileBytes& bytes) {
   open_.clear();
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_map

@@ -2,19 +2,19 @@
 /// A map of occupied cells that any number of points can be added to, in little memory.
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "plumb/data/cloud.hpp"
 #include "plumb/data/file_bytes.hpp"
-#include "plumb/geometry/pose.hpp"
+#include "plumb/slam/cloud.hpp"
+#include "plumb/slam/geometry/pose.hpp"
+#include "shared/parallel/loop.hpp"
 #include "tile.hpp"
 
-namespace plumb {
+namespace plumb::write_map {
 
 /// Cells in tiles. Where no point has fallen for a while a tile is closed, and opened again should
 /// one come: what is open is what the sensor sees at present, however long the path. Closed tiles
@@ -22,8 +22,6 @@ namespace plumb {
 /// and their frames' order alone.
 class VoxelMap {
  public:
-  using Parallel = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-
   /// Cells of edge length `voxel_size` [m], counted from `origin` [m, world]. Closed tiles take
   /// `memory` [bytes] before they go to disk.
   VoxelMap(double voxel_size, const Eigen::Vector3d& origin,
@@ -45,7 +43,8 @@ class VoxelMap {
 
   /// Adds frames in their order, tiles in parallel; then closes the tiles that none of the last
   /// `idle` frames has met.
-  void add(std::span<const FrameCells> frames, const Parallel& parallel, std::size_t idle = 32);
+  void add(std::span<const FrameCells> frames, const parallel::Loop& parallel,
+           std::size_t idle = 32);
 
   std::size_t size() const;  ///< cells
   std::size_t open() const;  ///< cells of tiles that are open
@@ -58,7 +57,7 @@ class VoxelMap {
     Tile tile;
     std::uint64_t last = 0;  ///< frame that met it
   };
-  void sink(std::span<Entry* const> closed, const Parallel& parallel);
+  void sink(std::span<Entry* const> closed, const parallel::Loop& parallel);
   double leaf_;
   Eigen::Vector3d origin_;
   std::size_t memory_, packed_ = 0;           ///< [bytes]: what closed tiles may take, and take
@@ -68,4 +67,4 @@ class VoxelMap {
   std::uint64_t frames_ = 0;
 };
 
-}  // namespace plumb
+}  // namespace plumb::write_map

@@ -4,9 +4,11 @@
 #include <limits>
 
 #include "map_image.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+namespace plumb::write_map2d {
 namespace {
 
 using testing::ElementsAre;
@@ -26,7 +28,7 @@ GridMap sample() {
 
 Document written(const std::string& port, const std::string& name = "map") {
   TestContext context;
-  return StepRun(*plumb_module())
+  return StepUnderTest(*plumb_module())
       .with("map", sample())
       .set("name", name)
       .run<Document>(port, context);
@@ -83,9 +85,9 @@ TEST(WriteMap2d, RefusesNamesWithAFolderAndMapsWithoutCells) {
   EXPECT_THROW(step.parameters({{"name", std::string("../map")}}), Error);
   EXPECT_THROW(step.parameters({{"occupied", 0.65}, {"free", 0.7}}), Error);
   TestContext context;
-  EXPECT_THROW(StepRun(*plumb_module()).with("map", GridMap()).run<Document>("pgm", context),
+  EXPECT_THROW(StepUnderTest(*plumb_module()).with("map", GridMap()).run<Document>("pgm", context),
                Error);
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_map2d

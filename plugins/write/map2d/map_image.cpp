@@ -9,7 +9,7 @@
 
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::write_map2d {
 namespace {
 
 constexpr std::uint8_t unknown = 205;
@@ -80,4 +80,4 @@ std::string map_yaml(const GridMap& map, const std::string& image, const Thresho
          "\nfree_thresh: " + text_of(thresholds.free) + "\n";
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_map2d

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
-namespace plumb {
+namespace plumb::write_map2d {
 
 /// Probabilities at which a cell is called occupied or free; between them, and never seen, it is
 /// unknown.
@@ -40,4 +40,4 @@ std::string png_bytes(const GreyImage& image);
 /// free_thresh. Numbers read back as the same.
 std::string map_yaml(const GridMap& map, const std::string& image, const Thresholds& thresholds);
 
-}  // namespace plumb
+}  // namespace plumb::write_map2d

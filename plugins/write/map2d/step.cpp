@@ -1,7 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "map_image.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_map2d {
 namespace {
 
 struct WriteMap2d : WholeStep {
@@ -56,6 +59,6 @@ struct WriteMap2d : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_map2d
 
-PLUMB_MODULE(plumb::WriteMap2d)
+PLUMB_MODULE(plumb::write_map2d::WriteMap2d)

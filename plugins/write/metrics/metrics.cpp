@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace plumb {
+namespace plumb::write_metrics {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -55,4 +55,4 @@ std::string metrics_json(const std::vector<std::pair<std::string, const Metrics*
   return text + (stages.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_metrics

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "plumb/data/values.hpp"
+#include "plumb/slam/values.hpp"
 
-namespace plumb {
+namespace plumb::write_metrics {
 
 /// {"stages": [{"stage": label, "numbers": {name: {"value", "unit"}}, "notes": [...], "edges":
 /// [{...}, ...]}, ...]}, in the order given; an edge a line: i, j, kind, found, kept, residual [m],
@@ -15,4 +15,4 @@ namespace plumb {
 /// is null. The same metrics give the same bytes.
 std::string metrics_json(const std::vector<std::pair<std::string, const Metrics*>>& stages);
 
-}  // namespace plumb
+}  // namespace plumb::write_metrics

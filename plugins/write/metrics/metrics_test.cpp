@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace plumb {
+namespace plumb::write_metrics {
 namespace {
 
 Metrics sample() {
@@ -55,4 +55,4 @@ TEST(MetricsJson, IsValidWithoutAnything) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_metrics

@@ -1,7 +1,10 @@
+#include "plumb/slam/step.hpp"
+
 #include "metrics.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 
-namespace plumb {
+namespace plumb::write_metrics {
 namespace {
 
 struct WriteMetrics : WholeStep {
@@ -37,6 +40,6 @@ struct WriteMetrics : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_metrics
 
-PLUMB_MODULE(plumb::WriteMetrics)
+PLUMB_MODULE(plumb::write_metrics::WriteMetrics)

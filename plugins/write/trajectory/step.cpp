@@ -1,7 +1,10 @@
-#include "plumb/data/io/trajectory_file.hpp"
-#include "plumb/plugin/module.hpp"
+#include "plumb/slam/step.hpp"
 
-namespace plumb {
+#include "plumb/data/document.hpp"
+#include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
+
+namespace plumb::write_trajectory {
 namespace {
 
 enum class Format { tum, kitti };
@@ -42,6 +45,6 @@ struct WriteTrajectory : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_trajectory
 
-PLUMB_MODULE(plumb::WriteTrajectory)
+PLUMB_MODULE(plumb::write_trajectory::WriteTrajectory)

@@ -2,12 +2,14 @@
 
 #include <sstream>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
+#include "plumb/slam/step.hpp"
 
 extern "C" const PlumbModule* plumb_module();
 
-namespace plumb {
+namespace plumb::write_trajectory {
 namespace {
 
 Document written(const ParameterValues& values, std::vector<double> stamps = {1.5, 2.25}) {
@@ -57,4 +59,4 @@ TEST(WriteTrajectory, RefusesANameWithAFolder) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_trajectory

@@ -1,10 +1,13 @@
+#include "plumb/slam/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "table.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 namespace {
 
 struct WriteUncertainty : WholeStep {
@@ -66,6 +69,6 @@ struct WriteUncertainty : WholeStep {
 };
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty
 
-PLUMB_MODULE(plumb::WriteUncertainty)
+PLUMB_MODULE(plumb::write_uncertainty::WriteUncertainty)

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 
 std::vector<PoseUncertainty> uncertainty_of(const Constraints& constraints, std::size_t segments) {
   std::vector<PoseUncertainty> of(segments);
   for (const AbsolutePose& pose : constraints.absolute) {
     if (pose.i >= segments)
-      throw Error("the uncertainty names segment " + std::to_string(pose.i) + ", but there are " +
-                  std::to_string(segments) + ": wire ranges of the segments that were solved");
+      throw Error("the uncertainty names segment " + std::to_string(pose.i) + ", but got " +
+                  counted(segments, "segments") + ": wire ranges of the segments that were solved");
     const Matrix6d covariance = pose.information.ldlt().solve(Matrix6d::Identity());
     const Eigen::Matrix3d R = pose.T_world_i.matrix();
     of[pose.i].position = R * covariance.topLeftCorner<3, 3>() * R.transpose();
@@ -66,4 +67,4 @@ std::string uncertainty_table(const Trajectory& trajectory,
   return text;
 }
 
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty

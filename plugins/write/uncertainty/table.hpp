@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "plumb/data/graph.hpp"
-#include "plumb/data/segment.hpp"
-#include "plumb/data/trajectory.hpp"
+#include "plumb/slam/graph.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/trajectory.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 
 /// Covariance of a pose: of the position [m^2] and of the rotation vector [rad^2], both in world
 /// axes.
@@ -32,4 +32,4 @@ std::vector<PoseUncertainty> of_frames(const std::vector<PoseUncertainty>& segme
 std::string uncertainty_table(const Trajectory& trajectory,
                               const std::vector<PoseUncertainty>& frames);
 
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty

@@ -4,10 +4,12 @@
 #include <random>
 #include <sstream>
 
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "table.hpp"
 
-namespace plumb {
+namespace plumb::write_uncertainty {
 namespace {
 
 using testing::HasSubstr;
@@ -212,11 +214,11 @@ TEST(UncertaintyTable, KeepsLargeStampsAndUtmCoordinates) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 /// Three segments of three frames; the first fixed.
-StepRun wired() {
+StepUnderTest wired() {
   Constraints uncertainty;
   uncertainty.absolute = {known(1, Pose(), diagonal({0.04, 0.03, 0.02}, {1e-6, 1e-6, 1e-6})),
                           known(2, Pose(), diagonal({0.2, 0.1, 0.06}, {1e-6, 1e-6, 1e-6}))};
-  StepRun step(*plumb_module());
+  StepUnderTest step(*plumb_module());
   step.with("uncertainty", uncertainty)
       .each("ranges", ranges_of({3, 3, 3}))
       .with("trajectory", along_x(9));
@@ -261,7 +263,7 @@ TEST(WriteUncertainty, WarnsWhereTheSolverGaveNone) {
 }
 
 TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
-  const auto refusal = [](StepRun step) -> std::string {
+  const auto refusal = [](StepUnderTest step) -> std::string {
     TestContext context;
     try {
       step.run<Document>("document", context);
@@ -275,7 +277,7 @@ TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
   EXPECT_THAT(refusal(wired().each("ranges", std::vector<FrameRange>())),
               HasSubstr("do not cover the trajectory"));
   EXPECT_THAT(refusal(wired().each("ranges", ranges_of({4, 5}))),
-              HasSubstr("names segment 2, but there are 2"));
+              HasSubstr("names segment 2, but got 2 segments"));
 }
 
 TEST(WriteUncertainty, RefusesANameWithAFolder) {
@@ -285,4 +287,4 @@ TEST(WriteUncertainty, RefusesANameWithAFolder) {
 }
 
 }  // namespace
-}  // namespace plumb
+}  // namespace plumb::write_uncertainty

@@ -16,8 +16,8 @@ def test_help_names_every_command_and_the_exit_codes(folder):
 
 
 def test_each_command_has_help_with_its_options(folder):
-    expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column"],
-                "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "inspect": ["--json"], "schema": ["--output"],
+    expected = {"run": ["--preset", "--set", "--output", "--threads", "--quiet", "--times"], "check": ["file:line:column", "--plan"],
+                "graph": ["mermaid", "dot"], "migrate": ["--output", "Comments"], "list": ["--licences"], "inspect": ["--json"], "schema": ["--output"],
                 "simulate": ["--frames", "--drift", "--seed", "city_loop"], "evaluate": ["--clouds", "--json", "--truth"],
                 "compare": ["--variant", "--input", "--metric", "--time", "--json", "--cache-dir"], "cache": ["verify", "prune", "--cache-dir", "Example"]}
     for command in COMMANDS:
@@ -27,14 +27,84 @@ def test_each_command_has_help_with_its_options(folder):
 def test_a_wrong_command_line_exits_with_2(folder):
     for arguments in ([], ["fly"], ["run"], ["run", CASCADE], ["check"], ["check", CASCADE, "--fast"], ["inspect"],
                       ["graph", CASCADE, "--format", "png"], ["evaluate", "a"], ["simulate"], ["cache", "fly"],
-                      ["run", CASCADE, "-o", folder / "out", "--threads", "many"]):
+                      ["run", CASCADE, "-o", folder / "out", "--threads", "many"], ["check", CASCADE, "--set", "voxel_size"],
+                      ["check", CASCADE, "--set", "=1m"], ["run", CASCADE, "-o", folder / "out", "--memory", "2 apples"],
+                      ["run", folder / "none.yaml", "-o", folder / "out", "--explain", "--no-cache"]):
         said = plumb(*arguments, code=WRONG_COMMAND_LINE)
-        assert said.err.strip() and not said.out, said
+        refused(said)
+        assert not said.out, said
     assert not (folder / "out").exists()
+
+
+def test_a_misspelt_command_or_option_gets_the_nearest(folder):
+    run = ["run", CASCADE, *INPUT]
+    for arguments, words in ((["rnu", CASCADE, "-o", folder / "out"], "'plumb' has no command 'rnu'; did you mean 'run'?"),
+                             (["simulte", "city_loop", "-o", folder / "out"], "did you mean 'simulate'?"),
+                             (["fly"], "known: run, check, resolve"),
+                             ([], "a command is missing; known: run, check, resolve"),
+                             (["cache", "verfy"], "'plumb cache' has no command 'verfy'; did you mean 'verify'?"),
+                             ([*run, "--ouput", folder / "out"], "'plumb run' has no option '--ouput'; did you mean '--output'?"),
+                             ([*run, "-o", folder / "out", "--thread=2"], "has no option '--thread'; did you mean '--threads'?"),
+                             ([*run, "-o", folder / "out", "--plugin-pth", folder], "did you mean '--plugin-path'?"),
+                             ([*run, "-o", folder / "out", "--stores", folder], "has no option '--stores'; `plumb run --help`"),  # --store is a former name
+                             (["check", CASCADE, "--fast"], "'plumb check' has no option '--fast'; `plumb check --help` says what there is"),
+                             ([*INPUT, "check", CASCADE], "'--set' is an option of 'plumb check'"),
+                             (["check", CASCADE, *INPUT, "voxel_size=1m"], "'voxel_size=1m' is one word more than 'plumb check' takes")):
+        refused(plumb(*arguments, code=WRONG_COMMAND_LINE), words, "--help` says what there is")
+    assert not (folder / "out").exists()
+
+
+def test_the_plugin_path_serves_before_and_behind_the_command(folder):
+    folder.chmod(0o755)
+    (folder / "filter.torn.so").write_text("not a module")
+    (folder / "filter.torn.so").chmod(0o644)
+    for arguments in (["--plugin-path", folder, "list"], ["list", "--plugin-path", folder], ["list", f"--plugin-path={folder}"]):
+        plumb(*arguments).has("refused: " + str(folder / "filter.torn.so"))
+    plumb("check", "--plugin-path", folder, CASCADE, *INPUT).has("good")
+    plumb("check", CASCADE, "--plugin-path", folder, *INPUT, "--plugin-path", folder).has("good")
+    plumb("run", CASCADE, *INPUT, "-o", folder / "out", "--untrusted", "--plugin-path", folder, code=WRONG_COMMAND_LINE).has("--plugin-path")
+    assert plumb("check", "--version").out == plumb("--version").out
 
 
 def test_check_of_a_good_pipeline_shows_the_passes_of_each_loop(folder):
     plumb("check", CASCADE, *INPUT).has("good", "max_correspondence_distance", "4 m", "1.5 m")
+
+
+def plan_of(*arguments):
+    """The rows of `check --plan` by step or repeat, each as its columns, in their order; and what was said."""
+    said = plumb("check", "--plan", *arguments, *INPUT).has("good")
+    table = said.out[said.out.index("group "):said.out.index("\nresults: ")].splitlines()
+    rows = [re.split(r" {2,}", line) for line in table]
+    assert rows[0] == ["group", "step", "one call sees", "results", "until", "why"], said
+    return {row[1]: row for row in rows[1:]}, said
+
+
+def test_check_shows_the_plan_of_a_run_step_by_step(folder):
+    rows, said = plan_of(CASCADE)
+    steps = [row for row in rows.values() if len(row) > 2]
+    assert len(steps) == int(re.search(r"good, (\d+) steps", said.out)[1]) and all(len(row) == 6 for row in steps), said
+    for row in (["2", "ranged", "one frame of sequence", "passing", "map", "frames are transient, made for each of 2 inputs"],
+                ["3", "merged", "one segment of ranges", "passing", "segments", "large, and only denoised takes them"],
+                ["6", "segments", "one segment of ranges", "kept", "match_rmse", "large, but 9 inputs take them"],
+                ["coarse/2", "coarse.near", "one edge of neighbours", "remembered", "coarse", "in a repeat"],
+                ["14", "drift.solved", "whole collections", "remembered", "metrics", "solve.pose_graph occurs 3 times"]):
+        assert rows[row[1]] == row, said
+    assert rows["coarse: 3 to 4 passes"][0] == "16" and rows["map"][4] == "end of run", said
+    order = list(rows)
+    assert order.index("drift.solved") < order.index("coarse: 3 to 4 passes") < order.index("coarse.matches") < order.index("match_rmse"), said
+    said.has("\n  7: esf, fpfh, drift.overlapping\n")
+    assert said.out.count("memory: known after a first run") == 1, said
+    assert "transient" not in plumb("check", CASCADE, *INPUT).out
+
+
+def test_the_plan_follows_the_pipeline(folder):
+    file = folder / "changed.yaml"
+    file.write_text(f"plumb: 1\nname: changed\nextends: {CASCADE}\nremove: [map, denoised]\nreplace:\n"
+                    "  voxels: {use: filter.voxel_grid, from: merged, with: {voxel_size: $voxel_size}}\n  esf: {use: describe.esf, from: merged}\n")
+    rows, said = plan_of(file)
+    assert rows["ranged"][3:] == ["passing", "merged", "frames are transient"], said
+    assert rows["merged"][3:] == ["kept", "esf", "large, but 2 inputs take them"], said
+    assert rows["voxels"][3:] == ["passing", "segments", "large, and only segments takes them"], said
 
 
 def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):
@@ -43,6 +113,9 @@ def test_check_of_a_wrong_pipeline_names_the_place_and_the_cure(folder):
     line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "prune.kmean," in text)
     plumb("check", file, *INPUT, code=WRONG_INPUT).has(f"wrong.yaml:{line}:", "Did you mean 'prune.kmeans'?")
     plumb("check", folder / "none.yaml", code=WRONG_INPUT).has("none.yaml")
+    street = sequence("street")
+    said = plumb("check", street, code=WRONG_INPUT).has(f"'{street}' is a folder, not a pipeline", f"behind --set, as in --set input={street}")
+    assert "scene.yaml" not in said.err, said
 
 
 def test_check_says_that_the_input_is_missing(folder):
@@ -144,8 +217,9 @@ def test_simulate_makes_the_same_bytes_with_one_and_with_two_threads(folder):
 def test_simulate_refuses_what_it_cannot_make(folder):
     out = folder / "out"
     few = ["--frames", 4, "--lines", 4, "--columns", 32, "-o", out]
-    for arguments in (["moon"], ["--path", folder / "none.tum"], ["blocks", "--noise", "2deg"], ["blocks", "--seed", "x"]):
-        said = plumb("simulate", *arguments, *few, code=WRONG_INPUT)
+    for arguments, code in ((["moon"], WRONG_INPUT), (["--path", folder / "none.tum"], WRONG_INPUT), (["blocks", "--noise", "2deg"], WRONG_COMMAND_LINE),
+                            (["blocks", "--seed", "x"], WRONG_COMMAND_LINE), (["rooms"], WRONG_COMMAND_LINE)):
+        said = plumb("simulate", *arguments, *few, code=code)
         assert len(said.err.strip()) > 30, said
         assert not out.exists()
     out.mkdir()

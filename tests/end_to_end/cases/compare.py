@@ -123,10 +123,24 @@ def test_a_step_s_file_stays_in_the_output(folder):
     assert not (folder / "out").exists() and not (folder / "escaped.tum").exists()
 
 
+def test_an_input_with_a_dollar_in_its_name(folder):
+    command, rooms = files(folder, seeds=[1])
+    rooms[0].rename(folder / "rooms$truth")
+    said = json.loads(plumb(*command, "--input", folder / "rooms$truth", "--json", "--quiet").out)
+    assert said["inputs"] == ["rooms$truth"]
+
+
+def test_the_cache_lies_in_no_folder_of_results(folder):
+    command, rooms = files(folder, seeds=[1])
+    place = folder / "out/chained/rooms_1"
+    refused(plumb(*command, "--input", rooms[0], "-o", folder / "out", "--cache-dir", place / "store", code=WRONG_INPUT), f"--cache-dir {place}/store: ")
+    assert not (folder / "out").exists()
+
+
 def test_an_input_that_is_given_twice_is_refused(folder):
     command, rooms = files(folder, seeds=[1])
     plumb(*command, "--input", rooms[0], "--input", rooms[0], code=WRONG_INPUT).has("given twice")
-    plumb(*command, "--input", rooms[0], "--set", f"input={rooms[0]}", code=WRONG_INPUT).has("--input sets it")
+    plumb(*command, "--input", rooms[0], "--set", f"input={rooms[0]}", code=WRONG_COMMAND_LINE).has("--input sets it")
 
 
 def test_says_which_variant_failed_on_which_input(folder):
@@ -159,3 +173,18 @@ def test_another_program_s_trajectory_stands_beside_ours(folder):
     (folder / "rooms/wheels.tum").unlink()
     said = plumb("compare", PIPELINES / "zhang2023.yaml", "--variant", f"wheels={judge}", "--input", folder / "rooms", "--quiet", code=WRONG_INPUT)
     said.has("estimate")
+
+
+def test_the_bound_of_a_cache_is_held_over_all_runs(folder):
+    command, rooms = files(folder)
+    blobs = (folder / "store/blobs").rglob
+    plumb(*command, "--input", rooms[0], "--cache-dir", folder / "store")
+    earlier = {blob.name for blob in blobs("*") if blob.is_file()}
+    bounded = [*command, "--input", rooms[1], "--cache-size", "1kB"]
+    refused(plumb(*bounded, code=WRONG_COMMAND_LINE), "--cache-size 1kB: bounds a cache, and there is none")
+    said = plumb(*bounded, "--cache-dir", folder / "store")
+    assert said.err.count("cache: removed ") == 1 and said.err.count("cache: holds more than 1kB (--cache-size)") == 1, said
+    kept = {blob.name for blob in blobs("*") if blob.is_file()}
+    assert kept and earlier - kept, said
+    said = plumb(*bounded, "--cache-dir", folder / "store")  # the first of its runs does not remove what the second will use
+    assert "cache: removed" not in said.err and kept == {blob.name for blob in blobs("*") if blob.is_file()}, said

@@ -1,5 +1,6 @@
 """Other processes and other machines: the same bytes, whatever is killed."""
 import os
+import re
 import subprocess
 import time
 
@@ -123,17 +124,29 @@ def test_wrong_profiles_and_options_are_refused_with_their_place(folder):
     told("poll: 3\n", "profile.yaml:1:7:", "no unit")
     told("memory: much\n", "profile.yaml:1:9:", "memory much", "4GiB")
     refused(plumb(*good, "--executor", "slurm", "--executor-profile", folder / "none.yaml", code=WRONG_INPUT), "none.yaml: cannot be opened (No such file or directory)")
-    refused(plumb(*good, "--executor-profile", profile, code=WRONG_INPUT), "--executor slurm, which is not given")
-    refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_INPUT), "--executor", "process")
-    refused(plumb(*good, "--executor", "process", "--item-memory", "10MiB", code=WRONG_INPUT), "--item-memory 10MiB", "64MiB or more")
-    refused(plumb(*good, "--executor", "process", "--memory", "256MiB", "--threads", "8", code=WRONG_INPUT), "--memory for 8 workers", "32 MiB")
-    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--executor", "process"), code=WRONG_INPUT), "a cache is needed")
-    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--memory", "2GiB"), code=WRONG_INPUT), "a cache is needed")
-    refused(plumb(*good, "--memory", "2 apples", code=WRONG_INPUT), "--memory", "GiB")
-    refused(plumb(*good, "--memory", "1MiB", code=WRONG_INPUT), "too little")
-    refused(plumb("worker", "--cache-dir", folder / "s2", code=WRONG_INPUT), "not by hand")
+    refused(plumb(*good, "--executor-profile", profile, code=WRONG_COMMAND_LINE), "--executor slurm, which is not given")
+    refused(plumb(*good, "--item-memory", "1GiB", code=WRONG_COMMAND_LINE), "--executor", "process")
+    refused(plumb(*good, "--executor", "process", "--item-memory", "10MiB", code=WRONG_COMMAND_LINE), "--item-memory 10MiB", "64MiB or more")
+    refused(plumb(*good, "--executor", "process", "--memory", "256MiB", "--threads", "8", code=WRONG_COMMAND_LINE), "--memory for 8 workers", "32 MiB")
+    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--executor", "process"), code=WRONG_COMMAND_LINE), "a cache is needed")
+    refused(plumb(*words(folder, "out", "--cache-dir", "none", "--memory", "2GiB"), code=WRONG_COMMAND_LINE), "a cache is needed")
+    refused(plumb(*good, "--memory", "2 apples", code=WRONG_COMMAND_LINE), "--memory", "GiB")
+    refused(plumb(*good, "--memory", "1MiB", code=WRONG_COMMAND_LINE), "too little")
+    refused(plumb("worker", "--cache-dir", folder / "s2", code=WRONG_COMMAND_LINE), "not by hand")
     plumb(*good, "--executor", "condor", code=WRONG_COMMAND_LINE).has("condor")
     assert not (folder / "out").exists()
+
+
+def test_the_page_has_every_key_of_the_profile_with_its_default(folder):
+    profile = folder / "profile.yaml"
+    profile.write_text("no_key: 1\n")
+    command = words(folder, "out", "--cache-dir", folder / "store", "--executor", "slurm", "--executor-profile", profile)
+    keys = re.search(r"Known: (.*)\.", plumb(*command, code=WRONG_INPUT).err)[1].split(", ")
+    block = re.search(r"```yaml\n# profile.yaml.*?\n(.*?)```", (SOURCE / "README.md").read_text(), re.S)[1]
+    assert len(keys) >= 8 and re.findall(r"^(\w+):", block, re.M) == keys, (keys, block)
+    profile.write_text(block + "no_key: 1\n")
+    said = plumb(*command, code=WRONG_INPUT)
+    assert said.err.count("profile.yaml:") == 1, said  # what the page shows is taken
 
 
 def test_a_slurm_that_does_not_answer_or_lacks_the_partition_is_refused_before_anything_runs(folder):

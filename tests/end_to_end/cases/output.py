@@ -5,8 +5,8 @@ import signal
 import subprocess
 import time
 
-from plumb_test import (CASCADE, PLUMB, STEP_FAILED, UNSETTLED, WRONG_INPUT, cascade, files_of, nothing_left, nothing_staged, plumb, refused,
-                        sequence)
+from plumb_test import (CASCADE, PLUMB, STEP_FAILED, UNSETTLED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, files_of, nothing_left, nothing_staged,
+                        plumb, refused, sequence)
 
 POSES = """plumb: 1
 name: poses
@@ -36,7 +36,7 @@ def test_a_link_leads_to_the_folder_and_stays_a_link(folder):
 def test_a_link_to_nothing_and_no_name_at_all(folder):
     (folder / "out").symlink_to("nowhere")
     refused(run(folder, "-o", folder / "out", code=WRONG_INPUT), "leads nowhere")
-    refused(run(folder, "-o", "", code=WRONG_INPUT), "empty", "-o")
+    refused(run(folder, "-o", "", code=WRONG_COMMAND_LINE), "empty", "-o")
 
 
 def test_a_log_replaces_a_log_and_nothing_else(folder):
@@ -223,14 +223,43 @@ def test_no_point_left_is_said(folder):
 def test_the_store_and_the_results_lie_apart(folder):
     run(folder, "-o", folder / "out", "--cache-dir", folder / "store")
     refused(run(folder, "-o", folder / "out", "--cache-dir", folder / "out/store", code=WRONG_INPUT), "--cache-dir", "beside")
-    refused(run(folder, "-o", folder / "store/out", "--cache-dir", folder / "store", code=WRONG_INPUT), "lies in the cache", "another folder")
+    refused(run(folder, "-o", folder / "store/out", "--cache-dir", folder / "store", code=WRONG_INPUT), "lies in --cache-dir", "another folder")
     assert not (folder / "out/store").exists() and not (folder / "store/out").exists()
     run(folder, "-o", folder / "out", "--cache-dir", folder / "store")
 
 
+def test_what_is_to_be_changed_is_named_first(folder):
+    """Not an option that was not given, nor one that is as good as it was yesterday."""
+    (folder / "poses.yaml").write_text(POSES)
+    (folder / "full").mkdir()
+    (folder / "full/thesis.tex").write_text("mine")
+    out, full = folder / "out", folder / "full"
+    for words, variables, named in (
+            (["-o", "/"], {"PLUMB_CACHE_DIR": str(folder / "store")}, "-o /: "),
+            (["-o", "/"], {"PLUMB_CACHE_DIR": "", "XDG_CACHE_HOME": str(folder)}, f"-o /: the results get a folder of their own, and this one holds the cache {folder}"),
+            (["-o", "/", "--cache-dir", folder / "store"], {}, "-o /: "),
+            (["-o", "/", "--log", folder / "log"], {}, "-o /: "),
+            (["-o", full, "--cache-dir", full / "store"], {}, f"-o {full}: "),
+            (["-o", out], {"PLUMB_CACHE_DIR": str(out / "store")}, f"-o {out}: "),
+            (["-o", out, "--cache-dir", out / "store"], {}, f"--cache-dir {out}/store: "),
+            (["-o", out, "--store", out / "store"], {}, f"--store {out}/store: "),
+            (["-o", full / "out", "--cache-dir", full], {}, f"--cache-dir {full}: "),
+            (["-o", full / "out"], {"PLUMB_CACHE_DIR": str(full)}, f"PLUMB_CACHE_DIR={full}: "),
+            (["-o", out, "--cache-dir", "/"], {}, "--cache-dir /: "),
+            (["-o", out, "--cache-dir", full], {}, f"--cache-dir {full}: holds something else"),
+            (["-o", out], {"PLUMB_CACHE_DIR": str(full)}, f"PLUMB_CACHE_DIR={full}: holds something else"),
+            (["-o", out, "--log", out / "log"], {}, f"--log {out}/log: ")):
+        said = plumb("run", folder / "poses.yaml", "--set", f"input={sequence('street')}", *words, environment=variables, code=WRONG_INPUT)
+        refused(said)
+        assert said.err.startswith(f"plumb: {named}"), said
+    refused(run(folder, "-o", "/", code=WRONG_INPUT), "is the root of all folders", "with -o")
+    refused(plumb("cache", environment={"PLUMB_CACHE_DIR": "none"}, code=WRONG_COMMAND_LINE), "PLUMB_CACHE_DIR=none: there is nothing to look after")
+    assert files_of(folder) == {"poses.yaml": POSES.encode(), "full/thesis.tex": b"mine"}
+
+
 def test_an_empty_value_is_not_taken_for_none(folder):
     for option in ("--memory", "--cache-dir", "--log", "--events", "--time-limit", "--item-memory"):
-        refused(run(folder, "-o", folder / "out", option, "", code=WRONG_INPUT), option, "is empty")
+        refused(run(folder, "-o", folder / "out", option, "", code=WRONG_COMMAND_LINE), option, "is empty")
     assert not (folder / "out").exists()
 
 

@@ -153,7 +153,7 @@ def test_bombs(folder):
 def test_modules(folder):
     place = Place(folder)
     pipeline = place.file(reads())
-    said = plumb("--plugin-path", place.stranger, "run", pipeline, "--untrusted", "--set", f"input={place.input}", "-o", place.out, code=WRONG_INPUT)
+    said = plumb("--plugin-path", place.stranger, "run", pipeline, "--untrusted", "--set", f"input={place.input}", "-o", place.out, code=WRONG_COMMAND_LINE)
     said.has("no modules but those that Plumb came with")
     (place.stranger / "libevil.so").write_bytes(b"\x7fELF not one")
     (place.stranger / "libevil.json").write_text("{}")
@@ -171,8 +171,8 @@ def test_bounds(folder):
     place = Place(folder)
     pipeline = place.file(reads())
     given = ["--set", f"input={place.input}", "-o", place.out]
-    plumb("run", pipeline, "--untrusted", "--max-memory", "1MiB", *given, code=WRONG_INPUT).has("too little")
-    plumb("run", pipeline, "--untrusted", "--max-time", "0s", *given, code=WRONG_INPUT).has("above zero")
+    plumb("run", pipeline, "--untrusted", "--max-memory", "1MiB", *given, code=WRONG_COMMAND_LINE).has("too little")
+    plumb("run", pipeline, "--untrusted", "--max-time", "0s", *given, code=WRONG_COMMAND_LINE).has("above zero")
     plumb("run", pipeline, "--max-time", "10s", *given, code=WRONG_COMMAND_LINE).has("--untrusted")
     plumb("run", pipeline, "--untrusted", "--executor", "process", *given, code=WRONG_COMMAND_LINE)
     slow = ["run", PIPELINES / "tang2024.yaml", "--untrusted", "--max-time", "1s", "--set", f"input={sequence('street')}", "--threads", "1", "--quiet"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb_test import (CASCADE, STEP_FAILED, WRONG_INPUT, cascade, copy_of, files_of, nothing_left, plumb, refused, sequence)
+from plumb_test import (CASCADE, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, copy_of, files_of, nothing_left, plumb, refused, sequence)
 
 FAST = ["--set", "ranges.frames=2"]
 
@@ -137,7 +137,7 @@ def test_an_output_folder_that_holds_something_else(folder):
     out = folder / "out"
     out.mkdir()
     (out / "holiday.jpg").write_text("mine")
-    refused(cascade(sequence("street"), out, code=WRONG_INPUT), str(out), "holiday.jpg", "-o")
+    refused(cascade(sequence("street"), out, code=WRONG_INPUT), str(out), "holiday.jpg", "with -o, or move it away")
     assert files_of(folder) == {"out/holiday.jpg": b"mine"}
     assert [p.name for p in folder.iterdir()] == ["out"]
 
@@ -226,10 +226,26 @@ def test_an_unknown_unit(folder):
 
 
 def test_an_unknown_name_behind_set(folder):
-    for setting, word in (("coarse.max_corespondence_distance=2m", "Did you mean 'max_correspondence_distance'?"), ("voxel_sice=1m", "Did you mean 'voxel_size'?"), ("coarse.kept.clustres=3", "clustres"), ("voxel_size=1", "unit"),
-                          ("voxel_size", "=")):
+    for setting, word in (("coarse.max_corespondence_distance=2m", "Did you mean 'max_correspondence_distance'?"), ("voxel_sice=1m", "Did you mean 'voxel_size'?"), ("coarse.kept.clustres=3", "clustres"), ("voxel_size=1", "unit")):
         said = plumb("check", CASCADE, "--set", "input=.", "--set", setting, code=WRONG_INPUT)
         said.has("--set", word)
+    refused(plumb("check", CASCADE, "--set", "input=.", "--set", "voxel_size", code=WRONG_COMMAND_LINE), "--set", "expected NAME=VALUE")
+
+
+def test_a_path_with_a_dollar_is_written_with_two(folder):
+    street = folder / "a$b" / "$input"
+    street.parent.mkdir()
+    copy_of("street", folder, frames=6).rename(street)
+    pipeline = poses_pipeline(folder)
+    written = str(street).replace("$", "$$")
+    plumb("run", pipeline, "--set", f"input={written}", "-o", folder / "out", "--quiet")
+    plumb("run", "--locked", folder / "out/run.lock.yaml", "-o", folder / "again", "--quiet")
+    assert files_of(folder / "again") == files_of(folder / "out")
+    (folder / "default.yaml").write_text(POSES.replace("{type: path}", f"{{type: path, default: {written}}}"))
+    plumb("check", folder / "default.yaml").has("good")
+    for value in (street, "$input"):
+        plumb("check", pipeline, "--set", f"input={value}", code=WRONG_INPUT).has("A '$' that is text is written '$$'")
+    plumb("check", pipeline, "--set", "sequence.path=$inptu", code=WRONG_INPUT).has("nothing is called '$inptu'", "A '$' that is text is written '$$'")
 
 
 def floats_of(file):

@@ -1,5 +1,5 @@
 #include "../fuzz.hpp"
-#include "plumb/data/io/bin_file.hpp"
+#include "plumb/slam/io/bin_file.hpp"
 
 using namespace plumb;
 

@@ -18,9 +18,9 @@ PLUMB_FUZZ_READER(blob) {
   if (!result) throw Error("not a blob of this program");
   for (const auto& values : result->outputs)
     for (const AnyValue& value : values) {
-      value.type->hash(value.value.get());
-      value.type->bytes(value.value.get());
-      value.type->fault(value.value.get());
+      value.type->code->hash(value.value.get());
+      value.type->code->bytes(value.value.get());
+      value.type->code->fault(value.value.get());
     }
   const std::string written = blob_of(key, *result, "describe.fpfh");
   const auto again = read_blob(key, written);

@@ -5,6 +5,7 @@
 #include "scan_cloud.hpp"
 
 using namespace plumb;
+using namespace plumb::source_carmen;
 
 /// As source.carmen does: a log, packed or not, to scans and to their points.
 PLUMB_FUZZ_READER(carmen) {

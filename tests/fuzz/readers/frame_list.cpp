@@ -1,5 +1,5 @@
 #include "../fuzz.hpp"
-#include "plumb/data/io/frame_files.hpp"
+#include "plumb/slam/io/frame_files.hpp"
 
 using namespace plumb;
 

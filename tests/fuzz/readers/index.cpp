@@ -13,6 +13,8 @@ PLUMB_FUZZ_READER(index) {
   Index index(fuzz::folder());
   index.facts("pipeline.yaml", "segments", 0);
   index.file_hash("/data/0.pcd", 1, 2);
+  index.recalled({1, 2});
+  index.settle_recalled(0);
   index.made({1, 2}, "describe.fpfh", 3);
   fuzz::require(index.fault().empty() && index.rows().size() == 1,
                 "a damaged index is made anew and can be used");

@@ -5,6 +5,6 @@
 using namespace plumb;
 
 PLUMB_FUZZ_READER(kitti_calibration) {
-  fuzz::require(is_finite(read_calibration(fuzz::file_of(bytes))),
+  fuzz::require(is_finite(source_kitti::read_calibration(fuzz::file_of(bytes))),
                 "a calibration that was read is finite");
 }

@@ -1,6 +1,6 @@
 #include "../finite.hpp"
 #include "../fuzz.hpp"
-#include "plumb/data/io/trajectory_file.hpp"
+#include "plumb/slam/io/trajectory_file.hpp"
 
 using namespace plumb;
 

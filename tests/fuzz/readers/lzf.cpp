@@ -1,4 +1,4 @@
-#include "plumb/data/io/lzf.hpp"
+#include "plumb/slam/io/lzf.hpp"
 
 #include "../fuzz.hpp"
 

@@ -1,6 +1,6 @@
 #include "../fuzz.hpp"
 #include "plumb/data/archive.hpp"
-#include "plumb/data/io/cloud_file.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
 
 using namespace plumb;
 

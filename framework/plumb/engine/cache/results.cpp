@@ -6,7 +6,7 @@ std::size_t memory_of(const StoredResult& result) {
   std::size_t bytes = sizeof(StoredResult) + 64;
   for (const auto& values : result.outputs)
     for (const AnyValue& value : values)
-      bytes += sizeof(AnyValue) + (value ? value.type->bytes(value.value.get()) : 0);
+      bytes += sizeof(AnyValue) + (value ? value.type->code->bytes(value.value.get()) : 0);
   return bytes;
 }
 
@@ -58,9 +58,12 @@ bool Results::in_store(const Hash128& key) const {
 }
 
 std::size_t Results::size_of(const Hash128& key) const {
-  const std::lock_guard lock(mutex_);
-  const auto at = facts_.find(key);
-  return at == facts_.end() ? 0 : at->second.bytes;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto at = facts_.find(key);
+    if (at != facts_.end() && at->second.bytes > 0) return at->second.bytes;
+  }
+  return store_ ? store_->bytes_of(key) : 0;
 }
 
 void Results::insert(const Hash128& key, const SharedResult& result, bool in_store, bool stays) {

@@ -41,7 +41,7 @@ class Results {
   void made_elsewhere(const Hash128& key, const std::string& step);
   /// Whether the result can come back from the store, so that nobody need hold it.
   bool in_store(const Hash128& key) const;
-  /// Memory that a result takes, if it was seen in this run; else 0.
+  /// Memory that a result takes, about: of one that was not seen in this run the size of its file.
   std::size_t size_of(const Hash128& key) const;
 
   Store* store() const { return store_; }

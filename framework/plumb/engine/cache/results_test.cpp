@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 StoredResult numbers(std::size_t n) {
   StoredResult result;
-  result.outputs.push_back({any_value(Descriptor{std::vector<float>(n, 1.5f)})});
+  result.outputs.push_back({any_value(toy::Features{std::vector<float>(n, 1.5f)})});
   return result;
 }
 
@@ -36,7 +36,7 @@ TEST_F(WithStore, WhatLeftMemoryComesBack) {
   EXPECT_FALSE(results.remembered({1, 0}));
   const auto back = results.find({1, 0});
   ASSERT_TRUE(back);
-  EXPECT_EQ(back->outputs[0][0].as<Descriptor>()->values, std::vector<float>(1000, 1.5f));
+  EXPECT_EQ(back->outputs[0][0].as<toy::Features>()->values, std::vector<float>(1000, 1.5f));
   EXPECT_TRUE(results.in_store({1, 7}));
   EXPECT_GE(results.size_of({1, 0}), 4000u);
 }

@@ -130,6 +130,19 @@ void Bookkeeping::item(const ItemEvent& item) {
   observer_.event(told);
 }
 
+void Bookkeeping::all_reused(const std::string& path, int pass, std::size_t items) {
+  Event told = event(Event::Kind::item);
+  told.step = path;
+  told.pass = pass;
+  told.reused = true;
+  told.items = items;
+  {
+    const std::lock_guard lock(mutex_);
+    time_of(path).remembered += items;
+  }
+  if (items > 0) observer_.event(told);
+}
+
 void Bookkeeping::count(const std::string& path, std::string_view what, std::uint64_t n) {
   if (n == 0) return;
   const std::lock_guard lock(mutex_);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/engine/observe/memory_watch.hpp"
 #include "plumb/engine/observe/observer.hpp"
 
@@ -28,7 +29,7 @@ struct StepCount {
   std::string path, what;  ///< "points without a normal"
   std::uint64_t n = 0;
 
-  std::string text() const { return path + ": " + std::to_string(n) + " " + what; }
+  std::string text() const { return path + ": " + counted(n, what); }
 };
 
 /// One call of a step that was made or reused, here or in a process that works for this one.
@@ -58,6 +59,8 @@ class Bookkeeping {
   void step_ends(const std::string& path, int pass, double seconds);
   void pass_begins(const std::string& repeat, int pass, int at_most);
   void item(const ItemEvent& item);  ///< counts it and tells of it
+  /// All items of a step at once, known from an earlier run without a look at them.
+  void all_reused(const std::string& path, int pass, std::size_t items);
 
   void count(const std::string& path, std::string_view what, std::uint64_t n);
   void warn(const std::string& path,

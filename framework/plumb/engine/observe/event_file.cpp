@@ -65,7 +65,7 @@ void EventLines::event(const Event& event) {
     json["cpu_seconds"] = event.cpu_seconds;
     json["peak_bytes"] = event.peak_bytes;
   }
-  if (!item && event.kind != Kind::note) json["items"] = event.items;
+  if (item ? event.items != 1 : event.kind != Kind::note) json["items"] = event.items;
   if (!event.sentence.empty()) json["sentence"] = event.sentence;
   const std::string line = line_of(json) + "\n";
   const std::lock_guard lock(mutex_);

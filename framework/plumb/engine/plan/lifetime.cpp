@@ -1,44 +1,97 @@
 #include "plumb/engine/plan/lifetime.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
+
+#include "plumb/engine/plan/wires.hpp"
 
 namespace plumb {
 namespace {
 
-using Visit = std::function<void(int step, const Wire& wire, const InputDescription* port)>;
+/// Who takes the results of a step.
+struct Takers {
+  int inputs = 0;      ///< of steps, and what repeats start with, carry and judge by
+  int own_item = 0;    ///< of those: inputs that take the result of the call's own item
+  int last_step = -1;  ///< the step of the last one; -1: a repeat
+};
 
-void visit_wires(const Plan& plan, const PlannedItem& item, const Visit& visit) {
-  if (item.step >= 0) {
-    const PlannedStep& step = plan.steps[item.step];
-    for (std::size_t p = 0; p < step.inputs.size(); ++p)
-      for (const Wire& wire : step.inputs[p]) visit(item.step, wire, &step.description->inputs[p]);
-    return;
+/// Decides over the results of each step, and says why.
+class Lifetimes {
+ public:
+  explicit Lifetimes(const Plan& plan)
+      : plan_(plan), repeat_of_(plan.steps.size(), -1), takers_(plan.steps.size()) {
+    visit_steps(plan, plan.order, -1, [&](int step, int repeat) {
+      repeat_of_[step] = repeat;
+      ++uses_[plan.steps[step].description->name];
+    });
+    for (const PlannedItem& item : plan.order)
+      visit_wires(plan, item, [&](int step, const Wire& wire, const InputDescription* port) {
+        if (wire.step < 0) return;
+        Takers& takers = takers_[wire.step];
+        ++takers.inputs;
+        takers.own_item += step >= 0 && port->access == Access::item &&
+                           repeat_of_[step] == repeat_of_[wire.step] &&
+                           description(step).items == description(wire.step).items;
+        takers.last_step = step;
+      });
   }
-  const PlannedRepeat& repeat = plan.repeats[item.repeat];
-  for (const PlannedCarry& carry : repeat.carries) {
-    visit(-1, carry.start, nullptr);
-    visit(-1, carry.next, nullptr);
-  }
-  for (const PlannedCondition& condition : repeat.conditions) {
-    Wire wire;
-    wire.step = condition.step;
-    wire.output = condition.output;
-    visit(-1, wire, nullptr);
-  }
-  for (const PlannedItem& inner : repeat.body) visit_wires(plan, inner, visit);
-}
 
-void visit_steps(const Plan& plan, const std::vector<PlannedItem>& items, int repeat,
-                 const std::function<void(int step, int repeat)>& visit) {
-  for (const PlannedItem& item : items) {
-    if (item.step >= 0)
-      visit(item.step, repeat);
-    else
-      visit_steps(plan, plan.repeats[item.repeat].body, item.repeat, visit);
+  Lifetime of(int s) const {
+    const StepDescription& step = description(s);
+    const Takers& takers = takers_[s];
+    if (step.items && step.items->transient) return {Keeping::passing, why_transient(s)};
+    if (large(s) && takers.inputs == 1 && takers.own_item == 1)
+      return {Keeping::passing,
+              "large, and only " + plan_.steps[takers.last_step].path + " takes them"};
+    std::string why = large(s) ? why_not_passing(s) : but_lazy(step);
+    const auto and_also = [&](const std::string& more) {
+      return why.empty() ? more : why + "; " + more;
+    };
+    if (repeat_of_[s] >= 0) return {Keeping::remembered, and_also("in a repeat")};
+    if (const int n = uses_.at(step.name); n > 1)
+      return {Keeping::remembered, and_also(step.name + " occurs " + std::to_string(n) + " times")};
+    if (why.empty()) why = step.items ? "not large" : "one call makes all";
+    return {Keeping::kept, why};
   }
-}
+
+ private:
+  const StepDescription& description(int step) const { return *plan_.steps[step].description; }
+
+  bool large(int s) const {
+    const StepDescription& step = description(s);
+    return step.items && step.outputs.size() == 1 && step.outputs.front().type->large;
+  }
+
+  std::string why_transient(int s) const {
+    const std::string why = description(s).items->name + "s are transient";
+    const int inputs = takers_[s].inputs;
+    return inputs > 1 ? why + ", made for each of " + std::to_string(inputs) + " inputs" : why;
+  }
+
+  std::string why_not_passing(int s) const {
+    const Takers& takers = takers_[s];
+    if (takers.inputs != 1)
+      return "large, but " + std::to_string(takers.inputs) + " inputs take them";
+    if (takers.last_step < 0) return "large, but a repeat takes them";
+    const std::string taker = "large, but " + plan_.steps[takers.last_step].path;
+    const int repeat = repeat_of_[takers.last_step];
+    if (repeat != repeat_of_[s])
+      return taker + (repeat >= 0 ? " takes them in each pass" : " takes them after the repeat");
+    return taker + " takes several in a call";
+  }
+
+  static std::string but_lazy(const StepDescription& step) {
+    std::string names;
+    for (const OutputDescription& output : step.outputs)
+      if (output.emission == Emission::lazy) names += (names.empty() ? "" : ", ") + output.name;
+    return names.empty() ? "" : "all but " + names + ", opened whenever asked for";
+  }
+
+  const Plan& plan_;
+  std::vector<int> repeat_of_;
+  std::map<std::string, int> uses_;  ///< by a step's registered name
+  std::vector<Takers> takers_;
+};
 
 }  // namespace
 
@@ -53,45 +106,21 @@ std::vector<std::size_t> last_uses(const Plan& plan) {
   }
   // What passes through lives as long as the one that draws on it: go back from consumers to
   // producers.
-  const auto keeping = keeping_of(plan);
+  const auto lifetimes = keeping_of(plan);
   for (std::size_t place = plan.order.size(); place-- > 0;)
     visit_wires(plan, plan.order[place], [&](int step, const Wire& wire, const InputDescription*) {
-      if (step >= 0 && wire.step >= 0 && keeping[step] == Keeping::passing)
+      if (step >= 0 && wire.step >= 0 && lifetimes[step].keeping == Keeping::passing)
         last[wire.step] = std::max(last[wire.step], last[step]);
     });
   return last;
 }
 
-std::vector<Keeping> keeping_of(const Plan& plan) {
-  std::vector<int> repeat_of(plan.steps.size(), -1);
-  std::map<std::string, int> uses;
-  visit_steps(plan, plan.order, -1, [&](int step, int repeat) {
-    repeat_of[step] = repeat;
-    ++uses[plan.steps[step].description->name];
-  });
-  std::vector<int> wires(plan.steps.size(), 0), passable(plan.steps.size(), 0);
-  for (const PlannedItem& item : plan.order)
-    visit_wires(plan, item, [&](int step, const Wire& wire, const InputDescription* port) {
-      if (wire.step < 0) return;
-      ++wires[wire.step];
-      passable[wire.step] += step >= 0 && port->access == Access::item &&
-                             plan.steps[step].description->kind == StepKind::segment &&
-                             repeat_of[step] == repeat_of[wire.step];
-    });
-  std::vector<Keeping> keeping;
-  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
-    const StepDescription& step = *plan.steps[s].description;
-    const bool frames = step.kind == StepKind::frame;
-    const bool cloud = step.kind == StepKind::segment && step.outputs.size() == 1 &&
-                       step.outputs.front().type == &type_of<Segment>();
-    if (frames || (cloud && wires[s] == 1 && passable[s] == 1))
-      keeping.push_back(Keeping::passing);
-    else if (repeat_of[s] >= 0 || uses[step.name] > 1)
-      keeping.push_back(Keeping::remembered);
-    else
-      keeping.push_back(Keeping::kept);
-  }
-  return keeping;
+std::vector<Lifetime> keeping_of(const Plan& plan) {
+  const Lifetimes lifetimes(plan);
+  std::vector<Lifetime> of;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s)
+    of.push_back(lifetimes.of(static_cast<int>(s)));
+  return of;
 }
 
 }  // namespace plumb

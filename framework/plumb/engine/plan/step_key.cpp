@@ -9,8 +9,8 @@ namespace plumb {
 namespace {
 
 /// Raised when the engine gives steps something else for the same inputs. 2: seeds of the inputs
-/// alone.
-constexpr int engine_rule = 2;
+/// alone. 3: of the parts of them that are seen.
+constexpr int engine_rule = 3;
 
 }  // namespace
 
@@ -19,6 +19,7 @@ Hash128 step_key(const StepDescription& step, const ParameterValues& values) {
   hasher.bytes(&engine_rule, sizeof engine_rule);
   hasher.text(step.name);
   hasher.bytes(&step.version, sizeof step.version);
+  if (!step.across_builds) hasher.text(step.build);
   for (const auto& [name, value] : values) {  // a map: in order of name
     const ParameterDescription* parameter = step.parameter(name);
     if (parameter && !parameter->affects_result) continue;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/file_name.hpp"
 #include "plumb/engine/record/quoted.hpp"
@@ -55,9 +56,9 @@ void refuse_foreign(const io::Folder& folder, const fs::path& shown,
   }
   if (foreign.empty()) return;
   const std::size_t more = foreign.size() - 1;
-  const std::string others =
-      more > 0 ? " and " + std::to_string(more) + " more file" + (more > 1 ? "s" : "") : "";
-  refuse(shown, "holds '" + foreign.front() + "'" + others + " that no run of Plumb wrote", "them");
+  const std::string others = more > 0 ? " and " + counted(more, "more files") : "";
+  refuse(shown, "holds '" + foreign.front() + "'" + others + " that no run of Plumb wrote",
+         more > 0 ? "them" : "it");
 }
 
 /// All that is in a folder of results. Throws Error when not every bit of it is as a run wrote it.

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
 namespace plumb {
@@ -63,11 +64,11 @@ std::string difference_of(const StepRecord& then, const StepRecord& now) {
 std::string difference_of(const InputRecord& then, const InputRecord& now) {
   const std::string input = "the input '" + then.path + "'", cure = "; put back what was there";
   if (then.files > 0 && now.files == 0)
-    return input + were(std::to_string(then.files) + " files", "gone") + cure;
+    return input + were(counted(then.files, "files"), "gone") + cure;
   if (then.files != now.files)
-    return input + were(std::to_string(then.files) + " files", std::to_string(now.files)) + cure;
+    return input + were(counted(then.files, "files"), std::to_string(now.files)) + cure;
   if (then.bytes != now.bytes)
-    return input + were(std::to_string(then.bytes) + " bytes", std::to_string(now.bytes)) + cure;
+    return input + were(counted(then.bytes, "bytes"), std::to_string(now.bytes)) + cure;
   if (then.content)
     return then.content == now.content
                ? ""

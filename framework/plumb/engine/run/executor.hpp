@@ -65,9 +65,6 @@ class Executor {
 };
 
 template <class Archive, class T>
-requires std::is_same_v<std::remove_const_t<T>, Hash128>
-void fields(Archive& a, T& h) { a(h.high, h.low); }
-template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Counted>
 void fields(Archive& a, T& c) { a(c.what, c.n); }
 template <class Archive, class T>

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <limits>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_testing.hpp"
@@ -16,6 +17,7 @@ namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace toy;
 using testing::HasSubstr;
 
 const std::string halving = "plumb: 1\nname: halving\nabout: a loop that halves\n" +
@@ -55,6 +57,9 @@ struct PoisonedStore : testing::Test {
       EXPECT_TRUE(replace_whole(file, blob_of(key, result, step)));
       ++changed;
     });
+    // Without what it remembers of the steps the next run opens their results.
+    for (const char* file : {"index.sqlite", "index.sum"})
+      fs::remove(folder.path() / "store" / file);
     return changed;
   }
   /// The changed results are said to be damaged for this reason and made again: the run's own are
@@ -99,9 +104,7 @@ TEST_F(PoisonedStore, WithColumnsOfUnlikeLength) {
 
 TEST_F(PoisonedStore, WithPosesThatAreNoNumbers) {
   expect_made_again("test.halve", "non-finite", [](StoredResult& r) {
-    spoil<Poses>(r, [](Poses& p) {
-      p.T_world_segment.at(1).translation.x() = std::numeric_limits<double>::infinity();
-    });
+    spoil<Poses>(r, [](Poses& p) { p.places.at(1) = std::numeric_limits<double>::infinity(); });
   });
 }
 
@@ -112,10 +115,22 @@ TEST_F(PoisonedStore, WithValuesOfAnotherType) {
 
 TEST_F(PoisonedStore, WithTooFewValuesOrOutputs) {
   expect_made_again("test.pair", "holds 0 values", [](StoredResult& r) { r.outputs[0].clear(); });
-  expect_made_again("test.halve", "1 outputs where the step has 2",
+  expect_made_again("test.halve", "1 output where the step has 2",
                     [](StoredResult& r) { r.outputs.pop_back(); });
   expect_made_again("test.stitch", "3 values of its output 'groups' where the step gives 4",
                     [](StoredResult& r) { r.outputs[0].pop_back(); });
+}
+
+TEST_F(PoisonedStore, DoesNoHarmWhereNothingOfItIsOpened) {
+  const std::string before = run();
+  const fs::path index = folder.path() / "store" / "index.sqlite", kept = folder.path() / "kept";
+  fs::copy_file(index, kept);
+  fs::copy_file(folder.path() / "store" / "index.sum", folder.path() / "kept.sum");
+  ASSERT_GT(change("test.chain", [](StoredResult& r) { r.outputs[0].clear(); }), 0u);
+  fs::copy_file(kept, index);
+  fs::copy_file(folder.path() / "kept.sum", folder.path() / "store" / "index.sum");
+  EXPECT_EQ(run(), before);
+  EXPECT_EQ(damaged, 0u);
 }
 
 TEST_F(PoisonedStore, WithAGraphOfMoreSegmentsThanThereAreIsRefused) {

@@ -2,12 +2,14 @@
 
 #include <chrono>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
 #include "plumb/engine/run/parallel.hpp"
 #include "plumb/engine/run/step_run.hpp"
 #include "plumb/store/index.hpp"
+#include "plumb/store/size_bound.hpp"
 
 namespace plumb {
 namespace {
@@ -33,10 +35,11 @@ class Runner {
         admission_(memory_for_calls(options)),
         executor_(options.executor),
         store_(options.store),
-        keeping_(keeping_of(plan)),
+        bound_(options.store_bound),
+        lifetimes_(keeping_of(plan)),
         runs_(plan.steps.size()),
         documents_(plan.steps.size()),
-        metrics_(plan.steps.size()),
+        numbers_(plan.steps.size()),
         carried_(plan.repeats.size()) {
     for (const PlannedStep& step : plan.steps)
       steps_.push_back(&registry.step(step.description->name));
@@ -59,7 +62,7 @@ class Runner {
     for (std::size_t s = 0; s < plan_.steps.size(); ++s) {
       for (auto& document : documents_[s])
         result.documents.push_back({plan_.steps[s].path, document});
-      for (auto& metrics : metrics_[s]) result.metrics.push_back({plan_.steps[s].path, metrics});
+      for (auto& numbers : numbers_[s]) result.numbers.push_back({plan_.steps[s].path, numbers});
     }
     result.loops = std::move(loops_);
     result.warnings = books_.warnings();
@@ -76,17 +79,19 @@ class Runner {
     for (std::size_t place = 0; place < plan_.order.size(); ++place) {
       run_item(plan_.order[place]);
       for (std::size_t s = 0; s < runs_.size(); ++s)
-        if (last[s] <= place) runs_[s].reset();
+        if (last[s] <= place && runs_[s]) {
+          runs_[s]->remember();
+          runs_[s].reset();
+        }
       if (store_) store_->sync();
       if (admission_.bounded()) give_memory_back();
     }
   }
 
   void run_item(const PlannedItem& item) {
-    if (item.step >= 0)
-      run_step(item.step);
-    else
-      run_repeat(item.repeat);
+    if (item.step < 0) return run_repeat(item.repeat);
+    run_step(item.step);
+    if (bound_) bound_->after_step();
   }
 
   Source source_of(const Wire& wire) const {
@@ -116,17 +121,19 @@ class Runner {
     std::shared_ptr<StepRun> run;
     try {
       run = std::make_shared<StepRun>(step, *steps_[index], values, std::move(inputs),
-                                      keeping_[index],
+                                      lifetimes_[index].keeping,
                                       RunState{books_, results_, admission_, executor_, pass_});
     } catch (const Error& e) {
       throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
     }
     const auto counted = books_.items_of(step.path);
     run->start();
+    if (runs_[index]) runs_[index]->remember();  // of the pass before, which nobody asks any more
     runs_[index] = run;
     if (store_) explain(index, *run, counted);
+    run->remember();
     collect(index, *run);
-    if (keeping_[index] != Keeping::passing)
+    if (lifetimes_[index].keeping != Keeping::passing)
       books_.step_ends(
           step.path, pass_,
           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
@@ -138,11 +145,11 @@ class Runner {
     Explained one;
     one.path = step.path;
     one.pass = pass_;
-    one.passes = keeping_[index] == Keeping::passing;
+    one.passes = lifetimes_[index].keeping == Keeping::passing;
     const auto now = books_.items_of(step.path);
     one.made = now.first - counted.first;
     one.reused = now.second - counted.second;
-    const Facts facts = run.facts();
+    const Facts& facts = run.facts();
     const Facts before = store_->index()->facts(plan_.name, step.path, one.pass);
     one.why =
         before.empty() ? "this cache knows no earlier run of it" : first_difference(before, facts);
@@ -153,21 +160,21 @@ class Runner {
   void collect(int index, StepRun& run) {
     if (run.itemwise()) return;
     documents_[index].clear();
-    metrics_[index].clear();
+    numbers_[index].clear();
     const auto& outputs = plan_.steps[index].description->outputs;
     for (std::size_t o = 0; o < outputs.size(); ++o) {
       const int output = static_cast<int>(o);
       if (outputs[o].type == &type_of<Document>())
         for (std::size_t k = 0; k < run.count(output); ++k)
           documents_[index].push_back(run.value(output, k).as<Document>());
-      if (outputs[o].type == &type_of<Metrics>() && outputs[o].emission == Emission::one)
-        metrics_[index].push_back(run.value(output).as<Metrics>());
+      if (outputs[o].type->has_numbers && outputs[o].emission == Emission::one)
+        numbers_[index].push_back(run.value(output));
     }
   }
 
   double condition_value(const PlannedCondition& condition) const {
-    const auto metrics = runs_[condition.step]->value(condition.output).as<Metrics>();
-    for (const Number& number : metrics->numbers)
+    const AnyValue value = runs_[condition.step]->value(condition.output);
+    for (const Number& number : value.type->code->numbers(value.value.get()))
       if (condition.metric.empty() || number.name == condition.metric) return number.value;
     throw Error(condition.origin.text() + ": step '" + plan_.steps[condition.step].path +
                 "' gave no number '" + condition.metric + "' to judge the loop by");
@@ -204,7 +211,7 @@ class Runner {
     loops_.push_back({repeat.path, judge.passes(), why});
     const bool exhausted = !repeat.conditions.empty() && why.starts_with("at_most");
     const std::string sentence =
-        repeat.path + " ended after " + std::to_string(judge.passes()) + " passes: " + why;
+        repeat.path + " ended after " + counted(judge.passes(), "passes") + ": " + why;
     if (exhausted && repeat.if_exhausted == Exhausted::fail)
       throw Error(repeat.origin.text() + ": " + sentence +
                   "; allow more passes (at_most) or ask for less (until)");
@@ -217,11 +224,12 @@ class Runner {
   Admission admission_;
   Executor* executor_;
   Store* store_;
-  std::vector<Keeping> keeping_;
+  SizeBound* bound_;
+  std::vector<Lifetime> lifetimes_;
   std::vector<const Step*> steps_;
   std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
   std::vector<std::vector<std::shared_ptr<const Document>>> documents_;
-  std::vector<std::vector<std::shared_ptr<const Metrics>>> metrics_;
+  std::vector<std::vector<AnyValue>> numbers_;
   std::vector<std::vector<Source>> carried_;  ///< by repeat, then carry
   std::map<int, int> pass_of_;
   int pass_ = -1;  ///< of the innermost repeat that runs

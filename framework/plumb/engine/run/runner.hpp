@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/data/document.hpp"
 #include "plumb/engine/cache/explain.hpp"
 #include "plumb/engine/observe/bookkeeping.hpp"
 #include "plumb/engine/run/executor.hpp"
@@ -14,10 +15,13 @@
 
 namespace plumb {
 
+class SizeBound;
+
 struct RunOptions {
   unsigned threads = 0;    ///< 0: as many as the machine has
   Store* store = nullptr;  ///< where results of earlier runs are found and those of this one kept
   bool fresh = false;      ///< nothing is taken from the store, but all is kept
+  SizeBound* store_bound = nullptr;  ///< held between steps; in the end whoever has it sees to it
   std::size_t memory = 0;  ///< bound of resident memory [bytes], which needs a store; 0: none
   Executor* executor =
       nullptr;  ///< makes calls in other processes, which needs a store; none: all in this one
@@ -36,14 +40,15 @@ struct MadeDocument {
   std::shared_ptr<const Document> document;
 };
 
-struct MadeMetrics {
+/// A value with numbers that a step on whole collections gave.
+struct MadeNumbers {
   std::string path;
-  std::shared_ptr<const Metrics> metrics;
+  AnyValue value;
 };
 
 struct RunResult {
   std::vector<MadeDocument> documents;
-  std::vector<MadeMetrics> metrics;  ///< every Metrics output; of a repeat its last pass
+  std::vector<MadeNumbers> numbers;  ///< every such value; of a repeat its last pass
   std::vector<LoopEnd> loops;
   std::vector<std::string> warnings;
   std::vector<StepCount> counts;

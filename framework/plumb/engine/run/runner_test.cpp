@@ -44,7 +44,7 @@ struct Engine : testing::Test {
 TEST_F(Engine, RunsACascadeAndCarriesPosesFromPassToPass) {
   const RunResult result = run(cascade);
   ASSERT_EQ(result.documents.size(), 1u);
-  // Four segments 24 m apart: 3 edges of 24, then 12, then 6 m; gates 4, 2, 1. The fold: sum of
+  // Four segments 24 m apart: 3 edges of 24, then 12, then 6 m; gates 4, 2, 1. The sum: of
   // 2^(11-k) k for k = 0..11.
   EXPECT_EQ(result.documents[0].document->bytes.text(),
             "last gap=18 gates=3\nsums sum=4083 frames=12\n");
@@ -60,7 +60,7 @@ TEST_F(Engine, MakesWhatDoesNotSeePosesOnceForAllPasses) {
 
 TEST_F(Engine, OpensEachFrameOnceForEachWhoTakesIt) {
   run(cascade);
-  EXPECT_EQ(frames_opened, 24);  // merging and the fold
+  EXPECT_EQ(frames_opened, 24);  // merging and the sum
 }
 
 TEST_F(Engine, SumsCountsOverItemsEachOnceHoweverOftenItIsMade) {

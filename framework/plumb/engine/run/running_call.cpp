@@ -10,7 +10,7 @@ thread_local const RunningCall* innermost = nullptr;
 
 }  // namespace
 
-RunningCall::RunningCall(const StepRun& run, std::size_t item)
+RunningCall::RunningCall(StepRun& run, std::size_t item)
     : run_(run), item_(item), outer_(innermost) {
   innermost = this;
 }

@@ -12,7 +12,7 @@ class StepRun;
 /// Alive while a step has the word. They nest: frames are made inside the call that asks for them.
 class RunningCall {
  public:
-  RunningCall(const StepRun& run, std::size_t item);
+  RunningCall(StepRun& run, std::size_t item);
   ~RunningCall();
   RunningCall(const RunningCall&) = delete;
   RunningCall& operator=(const RunningCall&) = delete;
@@ -22,7 +22,7 @@ class RunningCall {
   static std::string title();
 
  private:
-  const StepRun& run_;
+  StepRun& run_;
   std::size_t item_;
   const RunningCall* outer_;
 };

@@ -18,7 +18,7 @@ class RunCollection final : public Collection {
   AnyValue open(std::size_t k) const override {
     return source_.run->value(source_.output, first_ + k);
   }
-  const Edges* edges() const override { return source_.run->edges().get(); }
+  AnyValue list() const override { return source_.run->list(); }
 
  private:
   Source source_;
@@ -27,21 +27,31 @@ class RunCollection final : public Collection {
 
 }  // namespace
 
-/// Those of `frames` that segment k is made of.
-std::pair<std::size_t, std::size_t> StepRun::frames_of(std::size_t k, const Source& frames) const {
-  for (std::size_t p = 0; p < inputs_.size(); ++p)
-    if (!inputs_[p].empty() && plan_.description->inputs[p].type == &type_of<FrameRange>()) {
-      const auto range =
-          inputs_[p].front().run->value(inputs_[p].front().output, k).as<FrameRange>();
-      const std::size_t there = frames.run->count(frames.output);
-      if (range->end > there)
-        throw NestedError(title(k) + ": has frames up to " + std::to_string(range->end) +
-                          " and there are " + std::to_string(there) +
-                          "; wire ranges that these frames were cut into, and if a cache was "
-                          "changed by hand, run with --refresh");
-      return {range->first, range->end};
-    }
-  throw Error("has frames but no ranges");
+/// The place of item k, and of what it joins.
+ItemPlace StepRun::place_of(std::size_t k) {
+  const AnyValue& of = own_list();
+  if (!of) return {k, 0, 0};
+  const auto [i, j] = of.type->code->list->ends(of.value.get(), k);
+  return {k, i, j};
+}
+
+/// Those of `parts` that item k is made of.
+std::pair<std::size_t, std::size_t> StepRun::parts_of(std::size_t k, const Source& parts) {
+  const ItemKind& kind = *plan_.description->items;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    const Type& type = *plan_.description->inputs[p].type;
+    if (inputs_[p].empty() || type.name != kind.ranges) continue;
+    const AnyValue value = inputs_[p].front().run->value(inputs_[p].front().output, k);
+    const auto [first, end] = type.code->range(value.value.get());
+    const std::size_t there = parts.run->count(parts.output);
+    if (first > end || end > there)
+      throw NestedError(title(k) + ": has " + kind.parts + "s up to " + std::to_string(end) +
+                        " and there are " + std::to_string(there) + "; wire ranges that these " +
+                        kind.parts +
+                        "s were cut into, and if a cache was changed by hand, run with --refresh");
+    return {first, end};
+  }
+  throw Error("has " + kind.parts + "s but no ranges");
 }
 
 /// Mirrors gather: what a call sees is what its key is made of.
@@ -52,28 +62,23 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
   add_number(inputs_[port].size());
   if (inputs_[port].empty()) return;
   const Source& source = inputs_[port].front();
+  const auto range = [&] {
+    return itemwise() ? parts_of(k, source)
+                      : std::pair(std::size_t{0}, source.run->count(source.output));
+  };
   switch (input.access) {
     case Access::item:
-      if (plan_.description->kind == StepKind::fold &&
-          input.type->grain == Grain::frame) {  // sees them all, in order
-        add_number(source.run->count(source.output));
-        for (std::size_t n = 0; n < source.run->count(source.output); ++n)
-          add(source.run->key(source.output, n));
-      } else {
-        add(source.run->key(source.output, input.type->grain == Grain::whole ? 0 : k));
-      }
+      add(source.run->key(source.output, source.run->per_item(source.output) ? k : 0));
       break;
     case Access::ends:
-      add(source.run->key(source.output, edges_->list[k].i));
-      add(source.run->key(source.output, edges_->list[k].j));
+      add(source.run->key(source.output, place_of(k).i));
+      add(source.run->key(source.output, place_of(k).j));
       break;
     case Access::each: {
-      const auto [first, end] = itemwise()
-                                    ? frames_of(k, source)
-                                    : std::pair(std::size_t{0}, source.run->count(source.output));
+      const auto [first, end] = range();
       add_number(end - first);
       for (std::size_t n = first; n < end; ++n) add(source.run->key(source.output, n));
-      if (source.run->edges()) add(content_hash(*source.run->edges()));
+      if (source.run->list()) add(source.run->list().hash());
       break;
     }
     case Access::several:
@@ -82,17 +87,21 @@ void StepRun::hash_input(Hasher& hasher, std::size_t port, std::size_t k) {
         add(one.run->key(one.output));
       }
       break;
-    case Access::relative: {
-      const auto poses = source.run->value(source.output).as<Poses>();
-      add(content_hash(poses->relative(edges_->list[k].i, edges_->list[k].j)));
+    case Access::part: {
+      const SeenPart part = part_of(port, k);
+      if (part.value) add(part.hash);
       break;
     }
-    case Access::over_edges:
-      break;
-    case Access::this_edge:
-      add(content_hash(edges_->list[k]));
-      break;
   }
+}
+
+/// What item k is seen of the value that an input is wired to.
+SeenPart StepRun::part_of(std::size_t port, std::size_t k) {
+  const Source& source = inputs_[port].front();
+  const AnyValue whole = plan_.description->lists_items(plan_.description->inputs[port])
+                             ? own_list()
+                             : source.run->value(source.output);
+  return step_.part(port, whole.value.get(), place_of(k));
 }
 
 Hash128 StepRun::call_key(std::size_t k) {
@@ -113,15 +122,15 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
     const Source& source = inputs_[p].front();
     switch (input.access) {
       case Access::item:
-        port.one = source.run->value(source.output, input.type->grain == Grain::whole ? 0 : k);
+        port.one = source.run->value(source.output, source.run->per_item(source.output) ? k : 0);
         break;
       case Access::ends:
-        port.one = source.run->value(source.output, edges_->list[k].i);
-        port.other = source.run->value(source.output, edges_->list[k].j);
+        port.one = source.run->value(source.output, place_of(k).i);
+        port.other = source.run->value(source.output, place_of(k).j);
         break;
       case Access::each: {
         const auto [first, end] = itemwise()
-                                      ? frames_of(k, source)
+                                      ? parts_of(k, source)
                                       : std::pair(std::size_t{0}, source.run->count(source.output));
         port.each = std::make_shared<RunCollection>(source, first, end);
         break;
@@ -130,30 +139,12 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
         for (const Source& one : inputs_[p])
           port.several.emplace_back(one.label, one.run->value(one.output));
         break;
-      case Access::relative:
-        port.T_i_j = source.run->value(source.output)
-                         .as<Poses>()
-                         ->relative(edges_->list[k].i, edges_->list[k].j);
-        break;
-      case Access::over_edges:
-        break;
-      case Access::this_edge:
-        port.edge = edges_->list[k];
+      case Access::part:
+        port.part = part_of(p, k);
         break;
     }
   }
   return ports;
-}
-
-void StepRun::run_fold(std::vector<PortOutput>& outputs, Context& context) {
-  const auto state = step_.begin({});
-  std::size_t frames = 0;
-  for (std::size_t p = 0; p < inputs_.size(); ++p)
-    if (!inputs_[p].empty() && plan_.description->inputs[p].type->grain == Grain::frame)
-      frames = inputs_[p].front().run->count(inputs_[p].front().output);
-  for (std::size_t n = 0; n < frames; ++n)
-    step_.fold(state.get(), params_.get(), gather(n), context);
-  step_.finish(state.get(), params_.get(), outputs, context);
 }
 
 /// From what the call sees, by content: a copied file or another folder gives the same numbers.
@@ -164,15 +155,14 @@ std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) {
   Hasher hasher;
   const auto add = [&](const AnyValue& value) {
     if (!value) return;
-    const Hash128 content = value.type->hash(value.value.get());
+    const Hash128 content = value.hash();
     hasher.bytes(&content, sizeof content);
   };
   for (const PortInput& port : inputs) {
     add(port.one);
     add(port.other);
     for (const auto& [label, value] : port.several) add(value);
-    const Hash128 rest = joined_key(content_hash(port.T_i_j), content_hash(port.edge));
-    hasher.bytes(&rest, sizeof rest);
+    if (port.part.value) hasher.bytes(&port.part.hash, sizeof port.part.hash);
   }
   return hasher.hash().low;
 }
@@ -185,13 +175,13 @@ std::size_t StepRun::expected_bytes(std::size_t k) {
     if (inputs_[p].empty()) continue;
     const InputDescription& input = plan_.description->inputs[p];
     const Source& source = inputs_[p].front();
-    if (input.access == Access::item && input.type->grain != Grain::whole)
+    if (input.access == Access::item && source.run->per_item(source.output))
       bytes += source.run->size_of(source.output, k);
     if (input.access == Access::ends)
-      bytes += source.run->size_of(source.output, edges_->list[k].i) +
-               source.run->size_of(source.output, edges_->list[k].j);
+      bytes += source.run->size_of(source.output, place_of(k).i) +
+               source.run->size_of(source.output, place_of(k).j);
     if (input.access == Access::each && itemwise()) {
-      const auto [first, end] = frames_of(k, source);
+      const auto [first, end] = parts_of(k, source);
       for (std::size_t n = first; n < end; ++n) bytes += source.run->size_of(source.output, n);
     }
   }
@@ -201,12 +191,12 @@ std::size_t StepRun::expected_bytes(std::size_t k) {
 /// What no step may give is refused here, so that the step that made it is named.
 void StepRun::require_sound(const AnyValue& value, std::size_t output) const {
   if (!value) return;
-  if (const char* fault = value.type->fault(value.value.get()); *fault)
+  if (const char* fault = value.type->code->fault(value.value.get()); *fault)
     throw Error("its output '" + plan_.description->outputs[output].name + "' holds " + fault +
                 "; the step must not give that, whatever its input");
 }
 
-void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const {
+void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) {
   try {
     for (std::size_t o = 0; o < outputs.size(); ++o) {
       require_sound(outputs[o].one, o);
@@ -219,23 +209,17 @@ void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t 
 
 std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
   std::vector<PortOutput> outputs(plan_.description->outputs.size());
-  const bool fold = plan_.description->kind == StepKind::fold;
-  const auto inputs =
-      fold
-          ? std::vector<PortInput>()
-          : gather(k);  // outside the try: what an earlier step says of itself needs no second name
+  // Outside the try: what an earlier step says of itself needs no second name.
+  const auto inputs = gather(k);
   const bool passing = itemwise() && keeping_ == Keeping::passing,
              first = passing && first_asked(0, k);
   // In a worker nothing is booked but what is warned: counts go home with the reply.
   ItemContext context(
-      state_.books, plan_.path, [&] { return fold ? 0 : seed_of(inputs); },
+      state_.books, plan_.path, [&] { return seed_of(inputs); },
       !state_.passed && (!passing || first), said);
   const RunningCall now(*this, k);
   try {
-    if (fold)
-      run_fold(outputs, context);
-    else
-      step_.run(params_.get(), inputs, outputs, context);
+    step_.run(params_.get(), inputs, outputs, context);
   } catch (const NestedError&) {
     throw;
   } catch (const std::exception& e) {
@@ -245,6 +229,7 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
         title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
   }
   check_outputs(outputs, k);
+  if (first) note(*said);
   if (first && state_.passed) state_.passed(*this, 0, k, *said);
   return outputs;
 }

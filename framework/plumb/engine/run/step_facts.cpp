@@ -27,9 +27,12 @@ std::string short_hash(const Hasher& hasher) { return hasher.hash().text().subst
 
 }  // namespace
 
-Facts StepRun::facts() {
+const Facts& StepRun::facts() {
+  if (!facts_.empty()) return facts_;
   const StepDescription& step = *plan_.description;
   Facts facts = {{"step", step.name}, {"version of " + step.name, std::to_string(step.version)}};
+  if (!step.across_builds && !step.build.empty())
+    facts.push_back({"the build of " + step.name, step.build.substr(0, 12)});
   for (const ParameterDescription& parameter : step.parameters) {
     const auto at = values_.find(parameter.name);
     if (at == values_.end() || !parameter.affects_result) continue;
@@ -40,7 +43,7 @@ Facts StepRun::facts() {
   }
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     Hasher hasher;
-    const std::size_t calls = itemwise() ? items_ : 1;
+    const std::size_t calls = itemwise() ? items() : 1;
     for (std::size_t k = 0; k < calls; ++k) hash_input(hasher, p, k);
     std::string from;
     for (const Source& source : inputs_[p])
@@ -49,7 +52,7 @@ Facts StepRun::facts() {
       facts.push_back(
           {"input '" + step.inputs[p].name + "'", short_hash(hasher) + " (" + from + ")"});
   }
-  return facts;
+  return facts_ = std::move(facts);
 }
 
 }  // namespace plumb

@@ -1,7 +1,8 @@
-/// The items of a frame-, segment- or edge-wise step: which there are, reused, made here or
+/// The items of an item-wise step: which there are, reused, made here or
 /// elsewhere, fetched again, dropped.
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -29,31 +30,36 @@ void StepRun::find_items() {
   for (std::size_t p = 0; p < ports.size(); ++p) {
     if (inputs_[p].empty()) continue;
     const Source& source = inputs_[p].front();
-    const Access access = ports[p].access;
-    if (access == Access::over_edges || access == Access::this_edge) {
-      edges_source_ = source;
-      edges_ = source.run->value(source.output).as<Edges>();
-      take(edges_->size(), ports[p].name);
-    } else if (access == Access::item && ports[p].type->grain != Grain::whole) {
+    if (plan_.description->lists_items(ports[p])) {
+      list_source_ = source;
+      list_ = source.run->value(source.output);
+      take(list_.type->code->list->size(list_.value.get()), ports[p].name);
+    } else if (ports[p].access == Access::item && source.run->per_item(source.output)) {
       take(source.run->count(source.output), ports[p].name);
-      if (ports[p].type->grain == Grain::edge)
-        edges_source_ = source.run->edges_source(), edges_ = source.run->edges();
+      if (source.run->list()) list_source_ = source.run->list_source(), list_ = source.run->list();
     }
   }
 }
 
-/// An edge's segments are taken from the step's inputs by their numbers.
-void StepRun::require_segments_of_edges() const {
-  for (std::size_t p = 0; edges_ && p < inputs_.size(); ++p) {
-    const Access access = plan_.description->inputs[p].access;
-    if (inputs_[p].empty() || (access != Access::ends && access != Access::relative)) continue;
+/// What an item joins (an edge's segments) is taken from the step's inputs by its place.
+void StepRun::require_ends() {
+  if (!list_) return;
+  const std::size_t wanted = list_.type->code->list->ends_count(list_.value.get());
+  for (std::size_t k = 0; k < items_; ++k)
+    if (const ItemPlace place = place_of(k); place.i >= wanted || place.j >= wanted)
+      throw NestedError(title(k) + ": joins what there is not; there are " +
+                        std::to_string(wanted) + " " + plan_.description->items->ends + "s");
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    if (inputs_[p].empty()) continue;
+    const InputDescription& input = plan_.description->inputs[p];
     const Source& source = inputs_[p].front();
-    const bool ends = access == Access::ends;
-    const std::size_t segments = ends ? source.run->count(source.output)
-                                      : source.run->value(source.output).as<Poses>()->size();
-    if (segments == edges_->segments) continue;
-    refuse_counts("'" + plan_.description->inputs[p].name + "'", segments, "the graph of the edges",
-                  edges_->segments);
+    std::optional<std::size_t> have;
+    if (input.access == Access::ends) have = source.run->count(source.output);
+    if (input.access == Access::part && !plan_.description->lists_items(input))
+      have = step_.ends_count(p, source.run->value(source.output).value.get());
+    if (have && *have != wanted)
+      refuse_counts("'" + input.name + "'", *have,
+                    "the graph of the " + plan_.description->items->name + "s", wanted);
   }
 }
 
@@ -61,21 +67,21 @@ void StepRun::refuse_counts(const std::string& one, std::size_t have, const std:
                             std::size_t wanted) const {
   throw NestedError(
       "step '" + plan_.path + "' (" + plan_.description->name + "): " + one + " has " +
-      std::to_string(have) + " items where " + other + " has " + std::to_string(wanted) +
+      counted(have, "items") + " where " + other + " has " + std::to_string(wanted) +
       "; wire what was cut alike, and if a cache was changed by hand, run with --refresh");
 }
 
-void StepRun::adopt_items(std::vector<Hash128> keys, Source edges) {
+void StepRun::adopt_items(std::vector<Hash128> keys, Source list) {
   kept_keys_ = std::move(keys);
   items_ = kept_keys_.size();
   pins_.resize(items_);
-  if (edges.run) edges_ = edges.run->value(edges.output).as<Edges>();
-  edges_source_ = std::move(edges);
+  if (list.run) list_ = list.run->value(list.output);
+  list_source_ = std::move(list);
 }
 
 void StepRun::start_items() {
+  if (keeping_ == Keeping::passing) return ready();
   join();
-  if (keeping_ == Keeping::passing) return;
   state_.books.step_begins(plan_.path, state_.pass, items_);
   kept_keys_.resize(items_);
   pins_.resize(items_);
@@ -106,6 +112,7 @@ void StepRun::make_item(std::size_t k) {
                                  state_.admission.bounded() ? expected_bytes(k) : 0);
   StoredResult said;
   auto outputs = call(k, &said);
+  note(said);
   kept(kept_keys_[k], result_of(outputs, std::move(said)), pins_[k]);
   Stopwatch::item(item_name(k), state_.pass, false);
 }
@@ -173,12 +180,13 @@ void StepRun::settle(std::vector<Failed> failed) {
             [](const Failed& a, const Failed& b) { return a.item < b.item; });
   const bool all = failed.size() >= most_failures;
   if (plan_.on_error == OnError::drop) {
+    dropped_ = true;
     for (const Failed& one : failed) {
       state_.books.warn(plan_.path,
                         one.sentence + "; " + item_name(one.item) + " is dropped (on_error: drop)");
       StoredResult empty;
       for (const auto& output : plan_.description->outputs)
-        empty.outputs.push_back({AnyValue{output.type, output.type->empty()}});
+        empty.outputs.push_back({AnyValue{output.type, output.type->code->empty()}});
       kept_keys_[one.item] =
           joined_key(kept_keys_[one.item], {0x64726f70, 0});  // not that of the true result
       kept(kept_keys_[one.item], std::move(empty), pins_[one.item]);

@@ -1,6 +1,7 @@
 /// A step with its inputs joined: what is common to steps on items and on whole collections.
 #include "plumb/engine/run/step_run.hpp"
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -20,46 +21,67 @@ StepRun::StepRun(const PlannedStep& plan, const Step& step, ParameterValues valu
       keeping_(keeping),
       state_(std::move(state)) {}
 
-bool StepRun::itemwise() const {
-  const StepKind kind = plan_.description->kind;
-  return kind != StepKind::whole && kind != StepKind::fold;
-}
-
 bool StepRun::lazy() const {
   for (const auto& output : plan_.description->outputs)
     if (output.emission == Emission::lazy) return true;
   return false;
 }
 
-std::string StepRun::item_name(std::size_t k) const {
-  switch (plan_.description->kind) {
-    case StepKind::frame:
-      return "frame " + std::to_string(k);
-    case StepKind::segment:
-      return "segment " + std::to_string(k);
-    case StepKind::edge:
-      return "edge " + std::to_string(edges_->list[k].i) + "-" + std::to_string(edges_->list[k].j);
-    default:
-      return "";
-  }
+std::string StepRun::item_name(std::size_t k) {
+  if (!itemwise()) return "";
+  const ItemPlace place = place_of(k);
+  const std::string& kind = plan_.description->items->name;
+  return own_list() ? kind + " " + std::to_string(place.i) + "-" + std::to_string(place.j)
+                    : kind + " " + std::to_string(k);
 }
 
-std::string StepRun::title(std::size_t k) const {
+std::string StepRun::title(std::size_t k) {
   const std::string item = item_name(k);
   return "step '" + plan_.path + "' (" + plan_.description->name + ")" +
          (item.empty() ? "" : ", " + item);
 }
 
 void StepRun::start() {
+  if (!lazy() && recall()) return;
   if (itemwise())
     start_items();
   else
     start_whole();
+  if (lazy()) recall();  // what its values counted
+}
+
+/// Of a step that was recalled, opened when somebody asks.
+const AnyValue& StepRun::list() {
+  ready();
+  if (recalled_)
+    std::call_once(listed_, [this] {
+      if (!list_source_.run) return;
+      AnyValue list = list_source_.run->value(list_source_.output);
+      if (itemwise() && list.type->code->list->size(list.value.get()) != items_)
+        throw NestedError("step '" + plan_.path +
+                          "': what the cache remembers of it does not fit its items; run with "
+                          "--refresh");
+      list_ = std::move(list);
+    });
+  return list_;
 }
 
 void StepRun::join() {
-  if (itemwise()) find_items(), require_segments_of_edges();
+  if (keeping_ == Keeping::passing)
+    ready();
+  else
+    find_inputs();
+}
+
+void StepRun::find_inputs() {
+  if (itemwise()) find_items(), require_ends();
   if (keeping_ == Keeping::passing) asked_.push_back(std::make_unique<std::atomic<bool>[]>(items_));
+}
+
+/// Whether a value that is made whenever it is asked for is asked for the first time, so that what
+/// it counts is to be said.
+bool StepRun::first_asked(std::size_t output, std::size_t k) {
+  return !asked_[output][k].exchange(true) && !said_in_full_;
 }
 
 /// "" when a result has the outputs of this step, with values of their types and as many; what is
@@ -67,8 +89,7 @@ void StepRun::join() {
 std::string StepRun::misfit_of(const StoredResult& result) const {
   const auto& outputs = plan_.description->outputs;
   if (const std::size_t n = result.outputs.size(); n != outputs.size())
-    return "has " + std::to_string(n) + " outputs where the step has " +
-           std::to_string(outputs.size());
+    return "has " + counted(n, "outputs") + " where the step has " + std::to_string(outputs.size());
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const auto& values = result.outputs[o];
     for (const AnyValue& value : values)
@@ -76,8 +97,8 @@ std::string StepRun::misfit_of(const StoredResult& result) const {
         return std::string("holds ") + value.type->name + " where the step gives " +
                outputs[o].type->name;
     if (const auto many = values_of(o); many && values.size() != *many)
-      return "holds " + std::to_string(values.size()) + " values of its output '" +
-             outputs[o].name + "' where the step gives " + std::to_string(*many);
+      return "holds " + counted(values.size(), "values") + " of its output '" + outputs[o].name +
+             "' where the step gives " + std::to_string(*many);
   }
   return "";
 }
@@ -98,6 +119,7 @@ SharedResult StepRun::find(const Hash128& key) {
 
 /// What an earlier run or another process made: what its step said then is said again.
 void StepRun::say_again(const StoredResult& result) {
+  note(result);
   for (const auto& [what, n] : result.counts) state_.books.count(plan_.path, what, n);
   for (const std::string& sentence : result.warnings) state_.books.warn(plan_.path, sentence);
 }
@@ -148,9 +170,18 @@ void StepRun::make_one(std::size_t k, const Hash128& expected, Reply& reply) {
 
 /// What a call said in another process, as if it had been made here, and that it was made.
 void StepRun::book(const Reply& reply) {
-  for (const Counted& count : reply.counts) state_.books.count(plan_.path, count.what, count.n);
-  for (const std::string& sentence : reply.warnings)
+  StoredResult said;
+  for (const Counted& count : reply.counts) {
+    state_.books.count(plan_.path, count.what, count.n);
+    said.counts.emplace_back(count.what, count.n);
+  }
+  const std::string own_sentences = plan_.path + ": ";
+  for (const std::string& sentence : reply.warnings) {
     state_.books.say(sentence.substr(0, sentence.find(':')), sentence);
+    if (sentence.starts_with(own_sentences))
+      said.warnings.push_back(sentence.substr(own_sentences.size()));
+  }
+  note(said);
   double own = 0;
   for (const Spent& spent : reply.spent)
     if (spent.path == plan_.path)
@@ -199,12 +230,14 @@ void StepRun::require_in_store() const {
              : " (" + results.store()->fault() + "); make room, or name another with --cache-dir"));
 }
 
-std::size_t StepRun::count(int output) const {
-  if (itemwise()) return items_;
+std::size_t StepRun::count(int output) {
+  if (itemwise()) return items();
   return whole_keys_[output].size();
 }
 
 AnyValue StepRun::value(int output, std::size_t k) {
+  ready();
+  if (!numbers_.empty() && numbers_[output]) return numbers_[output];
   if (itemwise())
     return keeping_ == Keeping::passing ? pass(k)[output] : fetch(k)->outputs[output].at(0);
   if (plan_.description->outputs[output].emission != Emission::lazy)
@@ -218,7 +251,8 @@ AnyValue StepRun::value(int output, std::size_t k) {
   try {
     AnyValue value = lazy_[output].open(k, context);
     require_sound(value, static_cast<std::size_t>(output));
-    passed_bytes_ = std::max(passed_bytes_.load(), value.type->bytes(value.value.get()));
+    passed_bytes_ = std::max(passed_bytes_.load(), value.type->code->bytes(value.value.get()));
+    if (first) note(said);
     if (first && state_.passed) state_.passed(*this, output, k, said);
     return value;
   } catch (const std::exception& e) {
@@ -228,12 +262,14 @@ AnyValue StepRun::value(int output, std::size_t k) {
 }
 
 Hash128 StepRun::key(int output, std::size_t k) {
+  ready();
   if (!itemwise()) return whole_keys_[output][k];
   return joined_key(keeping_ == Keeping::passing ? call_key(k) : kept_keys_[k],
                     {0, static_cast<std::uint64_t>(output)});
 }
 
 std::size_t StepRun::size_of(int output, std::size_t k) {
+  ready();
   if (itemwise())
     return keeping_ == Keeping::passing ? expected_bytes(k) : state_.results.size_of(kept_keys_[k]);
   if (plan_.description->outputs[output].emission == Emission::one)

@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,16 +46,25 @@ struct RunState {
       passed = nullptr;
 };
 
+/// One step in one pass, for whoever asks it: for its items, their keys, its values.
+///
+/// Larger than a class should be (tests/tree/size_test.py): whether a value is recalled, found,
+/// made here or elsewhere, passes through or was dropped is one state that all of these questions
+/// read and change. By file: step_call (one call), step_items, step_whole, step_recall, step_facts.
 class StepRun : public std::enable_shared_from_this<StepRun> {
  public:
   StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
           std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
 
-  /// Makes everything that is to be kept: the whole step, or all its items.
+  /// Makes everything that is to be kept, the whole step or all its items, unless an earlier run
+  /// left all of it.
   void start();
+  /// Remembers what was made for later runs. Asked after start(), with the facts; of what is made
+  /// when it is asked for, when nobody will ask any more.
+  void remember();
   /// In a worker: takes over what another process made and put into the store, by its keys.
-  void adopt_items(std::vector<Hash128> keys, Source edges);
-  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source edges);
+  void adopt_items(std::vector<Hash128> keys, Source list);
+  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list);
   /// In a worker: joins the inputs of a step whose calls are asked for one by one.
   void join();
   /// In a worker: makes one call, puts its result into the store under the `expected` key unless
@@ -65,28 +76,31 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   const ParameterValues& values() const { return values_; }
   Keeping keeping() const { return keeping_; }
   const std::vector<std::vector<Source>>& inputs() const { return inputs_; }
-  bool itemwise() const;                        ///< one call a frame, segment or edge
-  bool lazy() const;                            ///< has outputs that are made when asked for
-  std::size_t items() const { return items_; }  ///< calls, for an item-wise step
+  bool itemwise() const { return plan_.description->itemwise(); }  ///< one call an item
+  bool lazy() const;                               ///< has outputs that are made when asked for
+  std::size_t items() { return ready(), items_; }  ///< calls, for an item-wise step
   const std::vector<Hash128>& item_keys() const { return kept_keys_; }
   const Hash128& whole_key() const { return whole_key_; }
   const std::vector<std::vector<Hash128>>& whole_keys() const { return whole_keys_; }
-  const Source& edges_source() const { return edges_source_; }
+  const Source& list_source() { return ready(), list_source_; }
   /// "step 'coarse.matches' (match.fpfh_mutual), edge 3-4".
-  std::string title(std::size_t k) const;
-  std::string item_name(
-      std::size_t k) const;  ///< "edge 3-4"; empty for a step on whole collections
+  std::string title(std::size_t k);
+  std::string item_name(std::size_t k);  ///< "edge 3-4"; empty for a step on whole collections
   /// Asked after start(), with a store.
-  Facts facts();
+  const Facts& facts();
 
   /// How many values `output` has: 1 for a value of the whole pipeline.
-  std::size_t count(int output) const;
+  std::size_t count(int output);
   /// Value k of an output, made or fetched. Throws Error that names step and item.
   AnyValue value(int output, std::size_t k = 0);
   /// Changes whenever that value would.
   Hash128 key(int output, std::size_t k = 0);
-  /// The edges that edge-wise values of this run belong to.
-  std::shared_ptr<const Edges> edges() const { return edges_; }
+  /// Of items that are listed (edges): the list that the values of this run belong to.
+  const AnyValue& list();
+  /// Whether an output has one value an item, and not one for the whole pipeline.
+  bool per_item(int output) const {
+    return itemwise() || plan_.description->outputs[output].emission != Emission::one;
+  }
   /// What value k of an output takes in memory [bytes], about; 0 when nobody knows yet.
   std::size_t size_of(int output, std::size_t k);
   /// Books what was counted in another process of a value that passes through, once however often
@@ -112,16 +126,35 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
   void hash_input(Hasher& hasher, std::size_t port, std::size_t k);
-  std::pair<std::size_t, std::size_t> frames_of(std::size_t k, const Source& frames) const;
+  std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts);
+  ItemPlace place_of(std::size_t k);
+  SeenPart part_of(std::size_t port, std::size_t k);
   std::size_t expected_bytes(std::size_t k);
   static std::uint64_t seed_of(const std::vector<PortInput>& inputs);
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
-  void run_fold(std::vector<PortOutput>& outputs, Context& context);
   void require_sound(const AnyValue& value, std::size_t output) const;
-  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k) const;
+  void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k);
+  // step_recall.cpp: what an earlier run left
+  Hash128 find_recall_key() const;
+  bool recall();
+  bool fits(const Recalled& known) const;
+  bool all_in_store(const Recalled& known);
+  bool take_numbers(const std::vector<std::string>& bytes);
+  Source source_of_list();
+  std::vector<std::string> bytes_of_numbers();
+  bool made_when_asked() const { return lazy() || keeping_ == Keeping::passing; }
+  bool all_asked() const;
+  void note(const StoredResult& said);
+  /// Of what passes through and was recalled, finds the items when they are first asked for.
+  void ready() {
+    if (keeping_ == Keeping::passing) std::call_once(joined_, [this] { find_inputs(); });
+  }
+  void find_inputs();
+  /// As list(), asked while or after the inputs are found.
+  const AnyValue& own_list() { return recalled_ ? list() : list_; }
   // step_items.cpp: the items of an item-wise step
   void find_items();
-  void require_segments_of_edges() const;
+  void require_ends();
   [[noreturn]] void refuse_counts(const std::string& one, std::size_t have,
                                   const std::string& other, std::size_t wanted) const;
   void start_items();
@@ -145,7 +178,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   const Hash128& key_of_call(std::size_t k) const {
     return itemwise() ? kept_keys_[k] : whole_key_;
   }
-  bool first_asked(std::size_t output, std::size_t k) { return !asked_[output][k].exchange(true); }
+  bool first_asked(std::size_t output, std::size_t k);
   std::string misfit_of(const StoredResult& result) const;
   std::optional<std::size_t> values_of(std::size_t output) const;
   SharedResult find(const Hash128& key);
@@ -164,14 +197,25 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   RunState state_;
 
   std::size_t items_ = 0;
-  Source edges_source_;  ///< where edges_ come from
-  std::shared_ptr<const Edges> edges_;
+  Source list_source_;  ///< where list_ comes from
+  AnyValue list_;
   std::vector<Hash128> kept_keys_;  ///< by item
   std::vector<SharedResult> pins_;  ///< by item: what the store did not take
   Hash128 whole_key_;
   SharedResult whole_pin_;       ///< of a step on whole collections, unless it may leave memory
   std::vector<LazyItems> lazy_;  ///< by output
   std::vector<std::vector<Hash128>> whole_keys_;
+  Hash128 recall_key_;
+  bool recalled_ = false;      ///< all its results are known from an earlier run, by their keys
+  bool said_in_full_ = false;  ///< what it counts was said already
+  bool dropped_ = false;       ///< an item failed and has an empty value
+  bool remembered_ = false;
+  std::vector<AnyValue> numbers_;  ///< by output: recalled values with numbers
+  Facts facts_;
+  std::once_flag joined_, listed_;
+  std::mutex said_mutex_;
+  std::map<std::string, std::uint64_t> counts_;
+  std::set<std::string> warnings_;
   std::vector<std::unique_ptr<std::atomic<bool>[]>>
       asked_;  ///< of what is made anew whenever asked for: by output, then item
   std::atomic<std::size_t> passed_bytes_ = 0;  ///< the biggest value that passed so far

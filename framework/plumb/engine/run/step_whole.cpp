@@ -1,6 +1,8 @@
 /// A step on whole collections: reused, made here or elsewhere, and its values named.
 #include <algorithm>
 
+#include "plumb/data/counted.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
@@ -34,6 +36,7 @@ void StepRun::start_whole() {
     } else {
       StoredResult said;
       auto outputs = call(0, &said);
+      note(said);
       take_whole(std::move(outputs), std::move(said));
       Stopwatch::item("", state_.pass, false);
     }
@@ -100,10 +103,9 @@ void StepRun::make_whole_elsewhere() {
   });
 }
 
-void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys,
-                          Source edges) {
-  if (edges.run) edges_ = edges.run->value(edges.output).as<Edges>();
-  edges_source_ = std::move(edges);
+void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list) {
+  if (list.run) list_ = list.run->value(list.output);
+  list_source_ = std::move(list);
   whole_key_ = key;
   whole_keys_ = std::move(keys);
 }
@@ -114,8 +116,7 @@ void StepRun::name_values() {
   const auto& outputs = plan_.description->outputs;
   whole_keys_.resize(outputs.size());
   for (std::size_t o = 0; o < outputs.size(); ++o) {
-    for (const AnyValue& value : result->outputs[o])
-      whole_keys_[o].push_back(outputs[o].type->hash(value.value.get()));
+    for (const AnyValue& value : result->outputs[o]) whole_keys_[o].push_back(value.hash());
     if (o < lazy_.size())
       for (const Hash128& key : lazy_[o].keys) whole_keys_[o].push_back(joined_key(base_key_, key));
     check_items(o);
@@ -131,10 +132,9 @@ void StepRun::check_items(std::size_t output) {
   const std::size_t items = source->run->count(source->output), made = whole_keys_[output].size();
   if (made != items)
     throw Error("step '" + plan_.path + "' (" + plan_.description->name + "): its output '" +
-                port.name + "' has " + std::to_string(made) + " values where its input '" +
-                port.over + "' has " + std::to_string(items) + "; the step must give one for each");
-  if (port.type->grain == Grain::edge)
-    edges_source_ = source->run->edges_source(), edges_ = source->run->edges();
+                port.name + "' has " + counted(made, "values") + " where its input '" + port.over +
+                "' has " + std::to_string(items) + "; the step must give one for each");
+  if (source->run->list()) list_source_ = source->run->list_source(), list_ = source->run->list();
 }
 
 /// The input to whose items the values of an output belong; null when they are items of their own.
@@ -150,7 +150,7 @@ const Source* StepRun::source_over(std::size_t output) const {
 /// The result, back from the store if it left memory; made again if it is gone from there.
 SharedResult StepRun::whole() {
   if (whole_pin_) return whole_pin_;
-  if (auto found = state_.results.find(whole_key_)) return found;
+  if (auto found = find(whole_key_)) return found;
   if (inputs_.empty() && !plan_.description->inputs.empty())
     throw NestedError(title(0) + ": its result is gone from the cache; run again, it is made anew");
   StoredResult said;

@@ -2,16 +2,21 @@
 /// Small steps for tests of the engine: a source of numbered frames, merging, pairing, a loop that
 /// halves.
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
-#include "plumb/plugin/declaration.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/registry.hpp"
+#include "plumb/plugin/toy_testing.hpp"
 
 namespace plumb::engine_test {
 
+using namespace toy;
+
 inline std::atomic<int> frames_opened{0}, pairs_made{0}, shifted_made{0};
 
-/// n frames of one point (k, 0, 0), in segments of 3.
+/// n frames of one point, at k, in segments of 3.
 struct Source : WholeStep {
   struct In {};
   struct Params {
@@ -35,23 +40,21 @@ struct Source : WholeStep {
       out.frames.keys.push_back({0, static_cast<std::uint64_t>(k)});
     out.frames.open = [](std::size_t k, Context&) {
       ++frames_opened;
-      Frame frame;
-      frame.index = static_cast<std::uint32_t>(k);
-      frame.cloud.add({static_cast<float>(k), 0, 0});
-      return frame;
+      return Frame{static_cast<std::uint32_t>(k), static_cast<float>(k)};
     };
     for (std::uint32_t first = 0; first < static_cast<std::uint32_t>(params.frames); first += 3) {
-      FrameRange range;
-      range.first = first;
-      range.end = std::min<std::uint32_t>(first + 3, params.frames);
-      range.T_segment_frame.resize(range.size());
-      out.ranges.push_back(range);
-      out.poses.T_world_segment.emplace_back(Eigen::Quaterniond::Identity(),
-                                             Eigen::Vector3d(8.0 * first, 0, 0));
+      out.ranges.push_back({first, std::min<std::uint32_t>(first + 3, params.frames)});
+      out.poses.places.push_back(8.0 * first);
     }
     return out;
   }
 };
+
+/// A segment of a range with other points, all of its first frame.
+inline Segment with(const FrameRange& range, std::vector<float> points) {
+  const std::size_t size = points.size();
+  return {range, std::move(points), std::vector<std::uint16_t>(size, 0)};
+}
 
 struct Keep : FrameStep {
   struct In {
@@ -92,11 +95,9 @@ struct Merge : SegmentStep {
         .output("segment", &Out::segment, "");
   }
   Out run(const In& in, const Params&, Context&) const {
-    Segment segment;
-    segment.range = *in.range;
-    Cloud cloud;
-    for (std::size_t k = 0; k < in.frames.size(); ++k) cloud.add(in.frames.open(k)->cloud.point(0));
-    return {segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0))};
+    std::vector<float> points;
+    for (std::size_t k = 0; k < in.frames.size(); ++k) points.push_back(in.frames.open(k)->x);
+    return {with(*in.range, std::move(points))};
   }
 };
 
@@ -139,8 +140,8 @@ struct Pair : EdgeStep {
   Out run(const In& in, const Params&, Context&) const {
     ++pairs_made;
     Matches matches;
-    matches.p = {in.segments.i->cloud.point(0)};
-    matches.q = {in.segments.j->cloud.point(0)};
+    matches.p = {in.segments.i->points.at(0)};
+    matches.q = {in.segments.j->points.at(0)};
     return {matches};
   }
 };
@@ -165,22 +166,17 @@ struct Stitch : WholeStep {
     Out out;
     for (std::size_t k = 0; k + params.lose < in.segments.size(); ++k) {
       const auto piece = in.segments.open(k);
-      Cloud cloud;
-      if (k > 0) cloud.add(in.segments.open(k - 1)->cloud.point(0));
-      cloud.add(piece->cloud.point(0));
-      out.groups.push_back(piece->with(cloud, std::vector<std::uint16_t>(cloud.size(), 0)));
+      std::vector<float> points;
+      if (k > 0) points.push_back(in.segments.open(k - 1)->points.at(0));
+      points.push_back(piece->points.at(0));
+      out.groups.push_back(with(piece->range, std::move(points)));
     }
     return out;
   }
 };
 
 /// Two pairs that carry two numbers.
-inline Matches noted(float first, float second) {
-  Matches matches;
-  matches.p.resize(2, Eigen::Vector3f::Zero()), matches.q.resize(2, Eigen::Vector3f::Zero());
-  matches.weight = {first, second};
-  return matches;
-}
+inline Matches noted(float first, float second) { return {{0, 0}, {0, 0}, {first, second}}; }
 
 /// How far i's first target lies from j's first source.
 struct Lay : EdgeStep {
@@ -200,11 +196,11 @@ struct Lay : EdgeStep {
     is.output("matches", &Out::matches, "");
   }
   Out run(const In& in, const Params&, Context&) const {
-    return {noted((in.targets.i->cloud.point(0) - in.sources.j->cloud.point(0)).norm(), 0)};
+    return {noted(std::abs(in.targets.i->points.at(0) - in.sources.j->points.at(0)), 0)};
   }
 };
 
-/// Sees T_i_j: made anew when poses change.
+/// Sees its edge's shift: made anew when poses change.
 struct Shift : EdgeStep {
   struct In {
     One<Matches> matches;
@@ -227,8 +223,7 @@ struct Shift : EdgeStep {
   }
   Out run(const In& in, const Params& params, Context&) const {
     ++shifted_made;
-    return {noted(static_cast<float>(in.poses.T_i_j.translation.norm()),
-                  static_cast<float>(params.gate))};
+    return {noted(static_cast<float>(std::abs(in.poses.shift)), static_cast<float>(params.gate))};
   }
 };
 
@@ -250,7 +245,7 @@ struct Halve : WholeStep {
   }
   Out run(const In& in, const Params&, Context&) const {
     Out out{*in.poses, {}};
-    for (Pose& pose : out.poses.T_world_segment) pose.translation *= 0.5;
+    for (double& place : out.poses.places) place *= 0.5;
     double sum = 0, gates = 0;
     for (std::size_t k = 0; k < in.matches.size(); ++k) {
       sum += in.matches.open(k)->weight.at(0);
@@ -292,13 +287,9 @@ struct Write : WholeStep {
 };
 
 /// Sums the points' places, in order.
-struct Sum : FoldStep {
-  struct State {
-    std::vector<std::uint32_t> seen;
-    double sum = 0;
-  };
+struct Sum : WholeStep {
   struct In {
-    One<Frame> frame;
+    Each<Frame> frames;
   };
   struct Params {};
   struct Out {
@@ -306,21 +297,16 @@ struct Sum : FoldStep {
   };
   static void describe(Declaration<Sum>& is) {
     is.name("test.sum").version(1).summary("Sums.").source("");
-    is.input("frames", &In::frame, "").output("metrics", &Out::metrics, "");
+    is.input("frames", &In::frames, "").output("metrics", &Out::metrics, "");
   }
-  void fold(State& state, const In& in, const Params&, Context&) const {
-    state.seen.push_back(in.frame->index);
-    state.sum = 2 * state.sum + in.frame->cloud.x[0];  // depends on the order
-  }
-  Out finish(State&& state, const Params&, Context&) const {
-    return {Metrics()
-                .add("sum", state.sum, "")
-                .add("frames", static_cast<double>(state.seen.size()), "")};
+  Out run(const In& in, const Params&, Context&) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < in.frames.size(); ++k)
+      sum = 2 * sum + in.frames.open(k)->x;  // depends on the order
+    const auto frames = static_cast<double>(in.frames.size());
+    return {Metrics().add("sum", sum, "").add("frames", frames, "")};
   }
 };
-template <class A, class T>
-requires std::is_same_v<std::remove_const_t<T>, Sum::State>
-void fields(A& a, T& s) { a(s.seen, s.sum); }
 
 inline Registry registry() {
   static const StepOf<Source> source;

@@ -115,9 +115,7 @@ class Conditions {
         length > 0 && length < metric.text.size() ? metric.text.substr(length + 1) : "";
     std::vector<const Source*> fitting;
     for (const Source& source : *sources) {
-      if (source.type != &type_of<Metrics>() || source.grain != Grain::whole ||
-          source.wire.step < 0)
-        continue;
+      if (!source.type->has_numbers || source.grain || source.wire.step < 0) continue;
       const StepDescription& giver = *draft_.plan.steps[source.wire.step].description;
       const std::string& port = giver.outputs[source.wire.output].name;
       const std::string word = rest.substr(0, rest.find('.'));

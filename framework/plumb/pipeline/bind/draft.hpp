@@ -46,7 +46,7 @@ struct DraftStep {
 struct Source {
   Wire wire;
   const Type* type = nullptr;
-  Grain grain = Grain::whole;
+  const ItemKind* grain = nullptr;  ///< null: one value of the pipeline
 };
 
 struct DraftRow {
@@ -123,7 +123,7 @@ std::optional<std::vector<Source>> sources_of(Draft& draft, int scope, const Nod
 /// (told).
 bool choose(Draft& draft, const Source& source);
 /// What a source is, for sentences: "Features, one per segment".
-std::string kind_of(const Type& type, Grain grain);
+std::string kind_of(const Type& type, const ItemKind* grain);
 /// The row of the repeats from `repeat` outwards that has this name.
 std::optional<std::pair<int, int>> find_row(const Draft& draft, const std::string& name,
                                             int repeat);

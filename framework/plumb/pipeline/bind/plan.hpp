@@ -92,6 +92,12 @@ struct PlannedRepeat {
     const auto& v = rows[row].values;
     return v[std::min<std::size_t>(pass, v.size() - 1)];
   }
+  /// "3 to 5 passes"; "1 pass".
+  std::string passes_text() const {
+    const bool open = !conditions.empty() && at_least < at_most;
+    return (open ? std::to_string(at_least) + " to " : "") + std::to_string(at_most) +
+           (at_most == 1 ? " pass" : " passes");
+  }
 };
 
 struct PlannedSetting {

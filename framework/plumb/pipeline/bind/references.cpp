@@ -15,20 +15,9 @@ std::vector<std::string> names_in(const Draft& draft, int scope, bool outwards) 
   return names;
 }
 
-Grain grain_of(const StepDescription& step, const OutputDescription& output) {
-  if (output.emission != Emission::one) return output.type->grain;
-  switch (step.kind) {
-    case StepKind::frame:
-      return Grain::frame;
-    case StepKind::segment:
-      return Grain::segment;
-    case StepKind::edge:
-      return Grain::edge;
-    case StepKind::fold:
-    case StepKind::whole:
-      return Grain::whole;
-  }
-  return Grain::whole;
+/// The kind of item that the values of an output belong to; null for one of the whole pipeline.
+const ItemKind* grain_of(const StepDescription& step, const OutputDescription& output) {
+  return output.emission == Emission::one ? step.items : output.type->kind;
 }
 
 class Lookup {
@@ -179,7 +168,7 @@ class Lookup {
       got += (got.empty() ? "" : " and ") + kind_of(*next.type, next.grain);
     for (const Source& start : *starts)
       for (const Source& next : *nexts)
-        if (start.type == next.type && start.grain == Grain::whole && next.grain == Grain::whole)
+        if (start.type == next.type && !start.grain && !next.grain)
           carry.pairs.emplace_back(start, next);
     if (carry.pairs.empty())
       draft_.fault(carry.next->origin,
@@ -234,9 +223,8 @@ bool choose(Draft& draft, const Source& source) {
   return choose(draft, pair->first) && choose(draft, pair->second);
 }
 
-std::string kind_of(const Type& type, Grain grain) {
-  return grain == Grain::whole ? std::string(type.name)
-                               : std::string(type.name) + ", one per " + name_of(grain);
+std::string kind_of(const Type& type, const ItemKind* grain) {
+  return grain ? type.name + ", one per " + grain->name : type.name;
 }
 
 bool inside(const Draft& draft, int repeat, int of) {

@@ -83,6 +83,11 @@ void read_setting(Draft& draft, const Entry& entry) {
   if (about && !about->is_scalar()) draft.fault(about->origin, place + ": 'about' is a sentence.");
   const Node* value = node.at("default");
   kept.origin = value ? value->origin : entry.origin;
+  if (value && reference_in(*value))
+    return draft.fault(value->origin,
+                       place + ": " + value->shown() +
+                           " refers to another, and the value of a parameter stands for itself.",
+                       how_to_write_a_dollar);
   if (value) {
     auto read = read_value(kept.type, *value);
     if (const auto* fault = std::get_if<Fault>(&read))
@@ -107,6 +112,7 @@ std::string text_under(Draft& draft, const char* key) {
 
 std::vector<std::string> names_of(const std::map<std::string, Setting>& settings) {
   std::vector<std::string> all;
+  all.reserve(settings.size());
   for (const auto& [name, setting] : settings) all.push_back(name);
   return all;
 }
@@ -167,8 +173,9 @@ std::optional<ParameterValue> setting_value(Draft& draft, const std::string& pla
   const auto at = draft.settings.find(name);
   if (at == draft.settings.end()) {
     draft.dangling = true;
+    const std::string hint = did_you_mean(name, names_of(draft.settings));
     draft.fault(node.origin, place + ": nothing is called '$" + name + "'.",
-                did_you_mean(name, names_of(draft.settings)));
+                hint + (hint.empty() ? "" : "  ") + how_to_write_a_dollar);
     return std::nullopt;
   }
   Setting& setting = at->second;

@@ -130,18 +130,19 @@ class Steps {
     const std::string step = "step '" + planned.path + "'";
     if (on_error->is_scalar() && on_error->text == "stop") return;
     if (!on_error->is_scalar() || on_error->text != "drop")
-      return draft_.fault(on_error->origin,
-                          step + ": on_error is stop or drop, not " + on_error->shown() + ".",
-                          "stop: the run ends when the step's other items are done. drop: an edge "
-                          "is left without matches.");
+      return draft_.fault(
+          on_error->origin, step + ": on_error is stop or drop, not " + on_error->shown() + ".",
+          "stop: the run ends when the step's other items are done. drop: the item's "
+          "values are empty, as of an edge without matches.");
     const auto& outputs = planned.description->outputs;
-    if (planned.description->kind != StepKind::edge ||
+    if (!planned.description->itemwise() ||
         !std::all_of(outputs.begin(), outputs.end(),
-                     [](const auto& port) { return port.type == &type_of<Matches>(); }))
-      return draft_.fault(on_error->origin,
-                          step + ": on_error: drop is for steps that give an edge's Matches; " +
-                              planned.description->name + " does not.",
-                          "Leave it out: the run then stops when the step's other items are done.");
+                     [](const auto& port) { return port.type->has_empty; }))
+      return draft_.fault(
+          on_error->origin,
+          step + ": on_error: drop is for steps whose values may be empty (Matches); " +
+              planned.description->name + " does not.",
+          "Leave it out: the run then stops when the step's other items are done.");
     planned.on_error = OnError::drop;
   }
 

@@ -6,48 +6,38 @@
 namespace plumb::pipeline {
 namespace {
 
-/// Which grains an input takes.
-std::vector<Grain> grains_for(StepKind kind, const InputDescription& input) {
+/// Which grains an input takes: item kinds, or null for one value of the pipeline. None: any kind.
+std::vector<const ItemKind*> grains_for(const StepDescription& step,
+                                        const InputDescription& input) {
   switch (input.access) {
     case Access::ends:
-      return {Grain::segment};
+      return {step.items ? find_kind(step.items->ends) : nullptr};
     case Access::each:
-      if (kind == StepKind::segment) return {Grain::frame};
-      return {Grain::frame, Grain::segment, Grain::edge};
+      if (!step.items) return {};
+      return {find_kind(step.items->parts)};
     case Access::several:
-    case Access::relative:
-    case Access::over_edges:
-    case Access::this_edge:
-      return {Grain::whole};
+    case Access::part:
+      return {nullptr};
     case Access::item:
       break;
   }
-  switch (kind) {
-    case StepKind::frame:
-      return {Grain::frame, Grain::whole};
-    case StepKind::segment:
-      return {Grain::segment, Grain::whole};
-    case StepKind::edge:
-      return {input.type->grain == Grain::whole ? Grain::whole : Grain::edge};
-    case StepKind::fold:
-      return {input.type->grain == Grain::frame ? Grain::frame : Grain::whole};
-    case StepKind::whole:
-      return {Grain::whole};
-  }
-  return {};
+  if (!step.items || !input.type->kind) return {nullptr};
+  return {step.items, nullptr};
 }
 
-bool fits(StepKind kind, const InputDescription& input, const Source& source) {
-  const auto grains = grains_for(kind, input);
-  return source.type == input.type &&
-         std::find(grains.begin(), grains.end(), source.grain) != grains.end();
+bool fits(const StepDescription& step, const InputDescription& input, const Source& source) {
+  if (source.type != input.type) return false;
+  const auto grains = grains_for(step, input);
+  if (grains.empty()) return source.grain != nullptr;
+  return std::find(grains.begin(), grains.end(), source.grain) != grains.end();
 }
 
 /// "Features, one per segment": what a port wants.
-std::string wanted(StepKind kind, const InputDescription& input) {
-  const auto grains = grains_for(kind, input);
-  const bool own = std::find(grains.begin(), grains.end(), input.type->grain) != grains.end();
-  std::string text = kind_of(*input.type, own ? input.type->grain : grains.front());
+std::string wanted(const StepDescription& step, const InputDescription& input) {
+  const auto grains = grains_for(step, input);
+  const bool own =
+      grains.empty() || std::find(grains.begin(), grains.end(), input.type->kind) != grains.end();
+  std::string text = kind_of(*input.type, own ? input.type->kind : grains.front());
   if (input.access == Access::several) text += ", any number of them";
   return text;
 }
@@ -79,13 +69,13 @@ class Binder {
         continue;
       draft_.fault(planned_.origin,
                    title_ + ": its input '" + input.name + "' is not wired, it wants " +
-                       wanted(kind(), input) + ".",
+                       wanted(step(), input) + ".",
                    candidates(input));
     }
   }
 
  private:
-  StepKind kind() const { return planned_.description->kind; }
+  const StepDescription& step() const { return *planned_.description; }
 
   /// Of a step that no module offers: what it refers to counts as used.
   void mark(const Node& from) {
@@ -134,7 +124,7 @@ class Binder {
     const auto& inputs = planned_.description->inputs;
     for (std::size_t k = 0; k < inputs.size(); ++k)
       for (const Source& source : *sources)
-        if (fits(kind(), inputs[k], source)) fitting.emplace_back(k, &source);
+        if (fits(step(), inputs[k], source)) fitting.emplace_back(k, &source);
     // `from: STEP` feeds a step's own input, not the scale of its lengths (Declaration::scale),
     // which is named where it is meant.
     std::erase_if(fitting, [&](const auto& fit) {
@@ -149,8 +139,9 @@ class Binder {
       wire(fitting[0].first, *fitting[0].second);
     } else if (fitting.empty()) {
       std::vector<std::string> want;
+      want.reserve(inputs.size());
       for (const InputDescription& input : inputs)
-        want.push_back("'" + input.name + "' [" + wanted(kind(), input) + "]");
+        want.push_back("'" + input.name + "' [" + wanted(step(), input) + "]");
       fault(from, "'" + from.text + "' gives " + gives + ", which fits none of its inputs.",
             want.empty() ? "It has none." : "Inputs: " + joined(want) + ".");
     } else {
@@ -215,7 +206,7 @@ class Binder {
     std::vector<const Source*> fitting;
     std::string gives;
     for (const Source& source : *sources) {
-      if (fits(kind(), input, source)) fitting.push_back(&source);
+      if (fits(step(), input, source)) fitting.push_back(&source);
       gives += (gives.empty() ? "" : " and ") + kind_of(*source.type, source.grain);
     }
     if (fitting.size() == 1) return wire(index, *fitting[0], label);
@@ -223,7 +214,7 @@ class Binder {
       if (source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
     if (fitting.empty())
       fault(reference,
-            "its input '" + input.name + "' wants " + wanted(kind(), input) + ", but '" +
+            "its input '" + input.name + "' wants " + wanted(step(), input) + ", but '" +
                 reference.text + "' gives " + gives + ".",
             candidates(input));
     else

@@ -1,11 +1,13 @@
 /// Finds for every step which items it has: the step whose output says so. Values of one call must
 /// belong to the same items.
+#include <map>
+
 #include "plumb/pipeline/check/checks.hpp"
 
 namespace plumb::pipeline {
 namespace {
 
-/// Where the items of one grain come from, and the wire that said so first.
+/// Where the items of one kind come from, and the wire that said so first.
 struct Domain {
   int step = -1;
   std::string port;
@@ -29,46 +31,29 @@ class Domains {
   void find(int index) {
     PlannedStep& step = draft_.plan.steps[index];
     if (!step.description) return;
-    Domain frames, segments, edges;
+    const ItemKind* own = step.description->items;
+    std::map<const ItemKind*, Domain> domains;
     for (std::size_t k = 0; k < step.inputs.size(); ++k) {
       const InputDescription& input = step.description->inputs[k];
       for (const Wire& wire : step.inputs[k]) {
-        if (input.access == Access::over_edges || input.access == Access::this_edge) {
+        if (step.description->lists_items(input)) {
           if (wire.step < 0)
-            draft_.fault(wire.origin, draft_.title(index) +
-                                          ": which edges there are must come from a step, not from "
-                                          "what a repeat carries.");
+            draft_.fault(wire.origin, draft_.title(index) + ": which " + own->name +
+                                          "s there are must come from a step, not from what a "
+                                          "repeat carries.");
           else
-            agree(index, edges, wire.step, input.name, wire);
+            agree(index, domains[own], wire.step, input.name, wire);
           continue;
         }
         const int domain = domain_of(wire);
         if (domain < 0) continue;
-        // A SegmentStep that sees its own frames takes them by the range's indices, not item by
-        // item.
-        if (input.access == Access::each && step.description->kind == StepKind::segment) continue;
-        Domain* of = input.type->grain == Grain::frame  ? &frames
-                     : input.type->grain == Grain::edge ? &edges
-                                                        : &segments;
-        agree(index, *of, domain, input.name, wire);
+        // Its own parts a step takes by its item's range, not item by item.
+        if (input.access == Access::each && own) continue;
+        const ItemKind* of = input.access == Access::item && own ? own : input.type->kind;
+        agree(index, domains[of], domain, input.name, wire);
       }
     }
-    switch (step.description->kind) {
-      case StepKind::frame:
-        settle(index, frames, "frames");
-        break;
-      case StepKind::segment:
-        settle(index, segments, "segments");
-        break;
-      case StepKind::edge:
-        settle(index, edges, "edges");
-        break;
-      case StepKind::fold:
-        settle(index, frames, "frames");
-        break;
-      case StepKind::whole:
-        break;
-    }
+    if (own) settle(index, domains[own], own->name + "s");
   }
 
   /// The step whose output says which items the values on a wire belong to; -1 for a value of the
@@ -78,10 +63,7 @@ class Domains {
     const PlannedStep& source = draft_.plan.steps[wire.step];
     const OutputDescription& output = source.description->outputs[wire.output];
     if (output.emission == Emission::one)
-      return source.description->kind == StepKind::whole ||
-                     source.description->kind == StepKind::fold
-                 ? -1
-                 : source.domain;
+      return source.description->itemwise() ? source.domain : -1;
     for (std::size_t k = 0; k < source.inputs.size(); ++k)
       if (source.description->inputs[k].name == output.over && !source.inputs[k].empty())
         return domain_of(source.inputs[k].front());
@@ -100,7 +82,7 @@ class Domains {
                      "' is wired at " + domain.wire->origin.text() + ".");
   }
 
-  void settle(int index, const Domain& domain, const char* items) {
+  void settle(int index, const Domain& domain, const std::string& items) {
     PlannedStep& step = draft_.plan.steps[index];
     step.domain = domain.step;
     bool wired = false;

@@ -1,15 +1,16 @@
 /// What is written and used by nothing is a mistake: somebody believes that it matters.
 #include <algorithm>
 
+#include "plumb/data/document.hpp"
 #include "plumb/pipeline/check/checks.hpp"
 
 namespace plumb::pipeline {
 namespace {
 
-/// Documents go into the output folder and metrics into the report, without any wire.
+/// Documents go into the output folder and numbers into the report, without any wire.
 bool leaves_something(const StepDescription& step) {
   return std::any_of(step.outputs.begin(), step.outputs.end(), [](const OutputDescription& output) {
-    return output.type == &type_of<Document>() || output.type == &type_of<Metrics>();
+    return output.type == &type_of<Document>() || output.type->has_numbers;
   });
 }
 

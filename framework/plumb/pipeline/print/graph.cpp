@@ -31,10 +31,8 @@ Box frames_of(const Plan& plan) {
   for (std::size_t k = 0; k < plan.repeats.size(); ++k) {
     const PlannedRepeat& repeat = plan.repeats[k];
     Box& frame = frame_of(root, repeat.path);
-    const bool open = !repeat.conditions.empty() && repeat.at_least < repeat.at_most;
     frame.repeat = static_cast<int>(k);
-    frame.label += ": " + (open ? std::to_string(repeat.at_least) + " to " : "") +
-                   std::to_string(repeat.at_most) + (repeat.at_most == 1 ? " pass" : " passes");
+    frame.label += ": " + repeat.passes_text();
   }
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const std::string& path = plan.steps[k].path;
@@ -55,7 +53,7 @@ std::string name_of_step(const PlannedStep& step) {
 }
 
 /// The type on a wire: of the output, or of what is carried.
-const char* type_on(const Plan& plan, const Wire& wire) {
+const std::string& type_on(const Plan& plan, const Wire& wire) {
   const Wire* at = &wire;
   while (at->step < 0) at = &plan.repeats[at->repeat].carries[at->carry].next;
   return plan.steps[at->step].description->outputs[at->output].type->name;

@@ -25,6 +25,18 @@ std::string scalar(const std::string& text, bool was_quoted, bool in_flow) {
   return was_quoted || needs_quotes(text, in_flow) ? io::plain_in_quotes(text) : text;
 }
 
+/// As it is written; in quotes, where each '$' stands for itself, the text that it means.
+std::string scalar(const Node& node, bool in_flow) {
+  if (node.quoted || !needs_quotes(node.text, in_flow))
+    return scalar(node.text, node.quoted, in_flow);
+  return io::plain_in_quotes(text_in(node).value_or(node.text));
+}
+
+/// Text that is no reference, whatever is in it.
+std::string words(const std::string& text, bool was_quoted) {
+  return scalar(text, was_quoted || text.find('$') != std::string::npos, false);
+}
+
 /// As plumb::written, but so that it reads back as the same value.
 std::string exactly(const ParameterDescription& parameter, const ParameterValue& value) {
   const auto* si = std::get_if<double>(&value);
@@ -47,7 +59,7 @@ std::string flow(const Node& node) {  // NOLINT: as deep as the tree, at most 64
     case Node::Kind::none:
       return "";
     case Node::Kind::scalar:
-      return scalar(node.text, node.quoted, true);
+      return scalar(node, true);
     case Node::Kind::list:
       for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + flow(item);
       return "[" + text + "]";
@@ -121,8 +133,7 @@ class Writer {
     const Node* type = around.at("type");
     if (entry.key == "default" && type && type->text == "path" && entry.value.text != "none")
       if (const auto path = absolute(entry.value)) return *path;
-    return entry.value.is_scalar() ? scalar(entry.value.text, entry.value.quoted, false)
-                                   : flow(entry.value);
+    return entry.value.is_scalar() ? scalar(entry.value, false) : flow(entry.value);
   }
 
   static std::optional<std::string> absolute(const Node& node) {
@@ -130,7 +141,7 @@ class Writer {
     type.kind = ParameterKind::path;
     auto value = read_value(type, node);
     if (const auto* read = std::get_if<ParameterValue>(&value))
-      return scalar(std::get<std::string>(*read), node.quoted, false);
+      return words(std::get<std::string>(*read), node.quoted);
     return std::nullopt;
   }
 
@@ -142,24 +153,20 @@ class Writer {
       const PlannedParameter& planned = step.parameters[k];
       const Node* node = with.at(description.name);
       if (!node) {
-        const bool words = description.kind == ParameterKind::text ||
-                           description.kind == ParameterKind::path ||
-                           description.kind == ParameterKind::choice;
+        const bool is_text = description.kind == ParameterKind::text ||
+                             description.kind == ParameterKind::path ||
+                             description.kind == ParameterKind::choice;
         const bool none = std::holds_alternative<std::monostate>(planned.value);
         const std::string text = exactly(description, planned.value);
         if (description.required) continue;
-        line(depth,
-             description.name + ": " +
-                 scalar(text,
-                        words && !none && (text == "none" || text.find('$') != std::string::npos),
-                        false),
+        line(depth, description.name + ": " + words(text, is_text && !none && text == "none"),
              "default of " + step.description->name);
         continue;
       }
-      std::string text = node->is_scalar() ? scalar(node->text, node->quoted, false) : flow(*node);
+      std::string text = node->is_scalar() ? scalar(*node, false) : flow(*node);
       if (description.kind == ParameterKind::path && !reference_in(*node) &&
           !std::holds_alternative<std::monostate>(planned.value))
-        text = scalar(std::get<std::string>(planned.value), node->quoted, false);
+        text = words(std::get<std::string>(planned.value), node->quoted);
       std::string origin = node->origin.text();
       if (reference_in(*node) && planned.repeat < 0)
         origin += ": " + written(description, planned.value) + ", " + planned.origin.text();

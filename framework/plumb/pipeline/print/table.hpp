@@ -8,7 +8,7 @@
 namespace plumb {
 
 /// One table a repeat: a line a pass, a column a row; the last line for passes that repeat the last
-/// column. Empty without repeats.
+/// column. A row that an overlay left without a use is named below. Empty without repeats.
 std::string passes_table(const Plan& plan);
 
 }  // namespace plumb

@@ -1,11 +1,13 @@
 /// Of the steps that test_steps.hpp offers those on edges and graphs, and what writes: they declare
 /// ports and parameters like the real ones and do nothing.
-#include "plumb/data/registration.hpp"
+#include "plumb/data/document.hpp"
 #include "plumb/pipeline/testing/test_steps.hpp"
-#include "plumb/plugin/declaration.hpp"
+#include "plumb/plugin/toy_testing.hpp"
 
 namespace plumb::test {
 namespace {
+
+using namespace toy;
 
 struct Overlap : WholeStep {
   struct In {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plumb/data/error.hpp"
 #include "plumb/data/io/file_kind.hpp"
 #include "plumb/data/io/file_text.hpp"
 
@@ -76,15 +77,36 @@ std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
       "Give the YAML file of a pipeline; its data goes behind --set, as in --set input=DIR."};
 }
 
-Fault foreign_folder(const fs::path& folder) {
+namespace {
+
+/// As far as a first look tells: a sequence has its scene in YAML too, results their record.
+bool may_be_a_pipeline(const fs::path& file) try {
+  constexpr std::uint64_t largest = 1 << 20;
+  return !foreign_file(file, io::FileBytes(file, largest, "pipeline").view());
+} catch (const Error&) {
+  return false;  // no file, or one that cannot be read
+}
+
+std::vector<std::string> pipelines_in(const fs::path& folder) {
+  constexpr std::size_t most = 100;  // that are looked into
   std::vector<std::string> names;
-  for (const fs::path& file : yaml_files(folder)) names.push_back(file.string());
+  std::vector<fs::path> files = yaml_files(folder);
+  files.resize(std::min(files.size(), most));
+  for (const fs::path& file : files)
+    if (may_be_a_pipeline(file)) names.push_back(file.string());
+  return names;
+}
+
+}  // namespace
+
+Fault foreign_folder(const fs::path& folder) {
+  const std::vector<std::string> names = pipelines_in(folder);
   constexpr std::size_t readable = 8;
-  return {
-      "'" + folder.string() + "' is a folder, not a pipeline.",
-      names.empty() || names.size() > readable
-          ? "Give the YAML file of a pipeline; its data goes behind --set, as in --set input=DIR."
-          : "In it: " + joined(names) + "."};
+  return {"'" + folder.string() + "' is a folder, not a pipeline.",
+          names.empty() || names.size() > readable
+              ? "Give the YAML file of a pipeline; its data goes behind --set, as in --set input=" +
+                    folder.string() + "."
+              : "In it: " + joined(names) + "."};
 }
 
 std::string cure_for_missing(const fs::path& file, const fs::path& pipeline) {

@@ -105,6 +105,7 @@ class Rewriter {
     const Entry* step = step_at(tree, defaults.front().origin);
     const Node* with = step ? step->value.at("with") : nullptr;
     std::vector<std::string> entries;
+    entries.reserve(defaults.size());
     for (const Renaming& each : defaults) entries.push_back(each.was + ": " + each.now);
     const bool written = step && (with ? add_to_map(*with, entries) : add_with(*step, entries));
     if (!written) cannot(defaults.front().origin, "'" + joined(entries) + "'");

@@ -70,9 +70,10 @@ std::variant<ParameterValue, Fault> read_scalar(const ParameterDescription& para
   if (node.quoted && !worded)
     return Fault{node.shown() + " is text, expected " + expected(parameter),
                  "Leave out the quotes."};
-  if (worded && !node.quoted && node.text.find('$') != std::string::npos)
+  const auto words = worded ? text_in(node) : node.text;
+  if (!words)
     return Fault{"'" + node.text + "' has a '$' in it; a reference stands alone, as in '$name'",
-                 "Put text with a '$' into quotes."};
+                 how_to_write_a_dollar};
   switch (parameter.kind) {
     case ParameterKind::number:
       return read_quantity(parameter, node.text);
@@ -82,21 +83,20 @@ std::variant<ParameterValue, Fault> read_scalar(const ParameterDescription& para
       if (node.text == "true" || node.text == "false") return ParameterValue(node.text == "true");
       return Fault{"'" + node.text + "' is not a boolean", "Write true or false."};
     case ParameterKind::text:
-      return ParameterValue(node.text);
+      return ParameterValue(*words);
     case ParameterKind::path: {
-      if (node.text.empty()) return Fault{"the path is empty", ""};
+      if (words->empty()) return Fault{"the path is empty", ""};
       const std::filesystem::path base = node.origin.line > 0
                                              ? std::filesystem::path(node.origin.file).parent_path()
                                              : std::filesystem::path();
-      return ParameterValue(
-          std::filesystem::absolute(base / node.text).lexically_normal().string());
+      return ParameterValue(std::filesystem::absolute(base / *words).lexically_normal().string());
     }
     case ParameterKind::choice: {
       std::vector<std::string> known;
       for (const Choice& choice : parameter.choices) known.push_back(choice.name);
       for (const std::string& name : known)
-        if (name == node.text) return ParameterValue(node.text);
-      return Fault{"'" + node.text + "' is not one of the choices", did_you_mean(node.text, known)};
+        if (name == *words) return ParameterValue(name);
+      return Fault{"'" + *words + "' is not one of the choices", did_you_mean(*words, known)};
     }
   }
   return Fault{"?", ""};
@@ -138,6 +138,23 @@ std::optional<std::string> reference_in(const Node& node) {
   for (const char c : node.text.substr(1))
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return std::nullopt;
   return node.text.substr(1);
+}
+
+std::optional<std::string> text_in(const Node& node) {
+  if (node.quoted) return node.text;
+  std::string text;
+  for (std::size_t k = 0; k < node.text.size(); ++k) {
+    text += node.text[k];
+    if (node.text[k] != '$') continue;
+    if (++k == node.text.size() || node.text[k] != '$') return std::nullopt;
+  }
+  return text;
+}
+
+std::string dollars_doubled(const std::string& text) {
+  std::string all;
+  for (const char c : text) all += c == '$' ? std::string("$$") : std::string(1, c);
+  return all;
 }
 
 std::string expected(const ParameterDescription& parameter) {

@@ -34,6 +34,15 @@ std::variant<ParameterValue, Fault> read_value(const ParameterDescription& param
 /// The name in "$name", or nothing. A scalar in quotes is never a reference.
 std::optional<std::string> reference_in(const Node& node);
 
+/// What a scalar means as text: in it '$$' stands for '$', in quotes every '$' for itself. Nothing
+/// when a '$' is left that stands for no text.
+std::optional<std::string> text_in(const Node& node);
+/// Text as it is written without quotes: every '$' twice.
+std::string dollars_doubled(const std::string& text);
+/// How a '$' that is text is written, for hints.
+inline constexpr const char* how_to_write_a_dollar =
+    "A '$' that is text is written '$$', or the text put into quotes in the file.";
+
 /// "a length", "an angle", "one of huber, cauchy".
 std::string expected(const ParameterDescription& parameter);
 

@@ -1,4 +1,6 @@
 /// Steps that do what no step should, for one edge, so that tests see what becomes of the others.
+#include "plumb/slam/step.hpp"
+
 #include <unistd.h>
 
 #include <csignal>

@@ -1,5 +1,8 @@
 /// As many items as asked for, and a step that does nothing with each: what an item costs beside
 /// its work.
+#include "plumb/slam/step.hpp"
+
+#include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb {

@@ -4,6 +4,7 @@
 #include <set>
 #include <thread>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 
 namespace plumb {
@@ -60,8 +61,8 @@ class Calls {
       if (run_.adopt_result(item)) {
         settled.push_back(reply);
       } else if (begun_[item] >= tries_ + kills_forgiven) {
-        reply.fault = call->title + ": was begun " + std::to_string(begun_[item]) +
-                      " times and its job was ended each time; it is set aside";
+        reply.fault = call->title + ": was begun " + counted(begun_[item], "times") +
+                      " and its job was ended each time; it is set aside";
         settled.push_back(reply);
       }
     }
@@ -144,6 +145,48 @@ struct CancelUnlessOver {
   }
 };
 
+/// The calls that a file holds as one array of chunks.
+Submission submission_of(const SlurmOptions& options, const std::string& step,
+                         const JobFolder& folder, const std::filesystem::path& file,
+                         std::size_t calls) {
+  const ExecutorProfile& profile = options.profile;
+  const std::size_t size = std::max(profile.chunk, (calls + most_chunks - 1) / most_chunks);
+  Submission submission{"plumb-" + step,
+                        profile.partition,
+                        profile.time,
+                        (folder.path() / "log/%A_%a.txt").string(),
+                        profile.memory,
+                        profile.cpus,
+                        (calls + size - 1) / size,
+                        options.chunk_command};
+  for (const std::string& word : {std::string("--task"), file.string(), std::string("--chunk-size"),
+                                  std::to_string(size), std::string("--chunk")})
+    submission.command.push_back(word);
+  return submission;
+}
+
+/// Takes what the chunks of a job write until it is over or no call is open; how many it settled.
+std::size_t take_until_over(SlurmQueue& queue, const std::string& job, double poll, StepRun& run,
+                            JobFolder& folder, Calls& calls) {
+  std::size_t settled = 0;
+  double pause = 0.1, unanswered = 0;
+  for (;;) {
+    settled += calls.take(folder.news());
+    if (calls.all_settled()) break;
+    const JobState state = queue.state(job);
+    if (state == JobState::over) break;
+    if (state != JobState::unknown)
+      unanswered = 0;
+    else if ((unanswered += pause) >= patience)
+      run.say("Slurm does not answer; waiting for its job " + job +
+              ", whose results count once they are in the cache");
+    std::this_thread::sleep_for(std::chrono::duration<double>(pause));
+    pause = std::min(pause * 1.5, poll);
+  }
+  settled += calls.take(folder.news());
+  return settled + calls.take_rest();
+}
+
 }  // namespace
 
 void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
@@ -172,47 +215,19 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
   for (int idle = 0; !calls.all_settled();) {
     if (job.empty()) {
       if (idle == most_idle_submissions)
-        throw Error("step '" + run.plan().path + "': Slurm ended its job " + std::to_string(idle) +
-                    " times without one more result" +
+        throw Error("step '" + run.plan().path + "': Slurm ended its job " +
+                    counted(idle, "times") + " without one more result" +
                     (calls.trouble().empty() ? std::string() : " (" + calls.trouble() + ")") +
                     "; see " + (folder.path() / "log").string());
       const Task task = calls.rest();
       const auto file = folder.write_task(++number, task);
-      const std::size_t size =
-          std::max(options_.profile.chunk, (task.calls.size() + most_chunks - 1) / most_chunks);
-      Submission submission{"plumb-" + run.plan().path,
-                            options_.profile.partition,
-                            options_.profile.time,
-                            (folder.path() / "log/%A_%a.txt").string(),
-                            options_.profile.memory,
-                            options_.profile.cpus,
-                            (task.calls.size() + size - 1) / size,
-                            options_.chunk_command};
-      for (const std::string& word :
-           {std::string("--task"), file.string(), std::string("--chunk-size"), std::to_string(size),
-            std::string("--chunk")})
-        submission.command.push_back(word);
-      job = queue_.submit(submission);
+      job =
+          queue_.submit(submission_of(options_, run.plan().path, folder, file, task.calls.size()));
       mine = true;
       folder.write_submitted({number, job});
     }
-    std::size_t settled = 0;
-    double pause = 0.1, unanswered = 0;
-    for (;;) {
-      settled += calls.take(folder.news());
-      if (calls.all_settled()) break;
-      const JobState state = queue_.state(job);
-      if (state == JobState::over) break;
-      if (state != JobState::unknown)
-        unanswered = 0;
-      else if ((unanswered += pause) >= patience)
-        run.say("Slurm does not answer; waiting for its job " + job +
-                ", whose results count once they are in the cache");
-      std::this_thread::sleep_for(std::chrono::duration<double>(pause));
-      pause = std::min(pause * 1.5, options_.profile.poll);
-    }
-    settled += calls.take(folder.news());
-    settled += calls.take_rest();
+    const std::size_t settled =
+        take_until_over(queue_, job, options_.profile.poll, run, folder, calls);
     idle = settled > 0 || calls.begun_in_all() > begun ? 0 : idle + 1;
     begun = calls.begun_in_all();
     job.clear();

@@ -47,13 +47,13 @@ class Imaging {
       case ImageRole::items:
         run.require_in_store();
         entry.keys = run.item_keys();
-        if (run.edges_source().run) entry.edges = wire_of(run.edges_source());
+        if (run.list_source().run) entry.list = wire_of(run.list_source());
         break;
       case ImageRole::whole:
         run.require_in_store();
         entry.keys = {run.whole_key()};
         entry.value_keys = run.whole_keys();
-        if (run.edges_source().run) entry.edges = wire_of(run.edges_source());
+        if (run.list_source().run) entry.list = wire_of(run.list_source());
         break;
       default:
         for (const auto& port : run.inputs()) {
@@ -128,9 +128,8 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
   const Keeping keeping = from.role == ImageRole::pass ? Keeping::passing : Keeping::kept;
   auto run = std::make_shared<StepRun>(*plan, registry.step(from.step), values_from(from.values),
                                        std::move(inputs), keeping, state);
-  Source edges;
-  if (from.edges.run >= 0)
-    edges = {runs_.at(from.edges.run), static_cast<int>(from.edges.output), ""};
+  Source list;
+  if (from.list.run >= 0) list = {runs_.at(from.list.run), static_cast<int>(from.list.output), ""};
   switch (from.role) {
     case ImageRole::call:
     case ImageRole::pass:
@@ -140,10 +139,10 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
       run->start();
       break;
     case ImageRole::whole:
-      run->adopt_whole(from.keys.at(0), from.value_keys, std::move(edges));
+      run->adopt_whole(from.keys.at(0), from.value_keys, std::move(list));
       break;
     case ImageRole::items:
-      run->adopt_items(from.keys, std::move(edges));
+      run->adopt_items(from.keys, std::move(list));
       break;
   }
   return run;

@@ -41,7 +41,7 @@ struct ImageRun {
   std::vector<std::vector<ImageWire>> inputs;    ///< by port; of call, pass and open
   std::vector<Hash128> keys;                     ///< of items: by item; of whole: one
   std::vector<std::vector<Hash128>> value_keys;  ///< of whole: by output
-  ImageWire edges;                               ///< of values on edges: where the edges are
+  ImageWire list;  ///< of values of listed items (edges): where the list is
 };
 
 struct Image {
@@ -80,7 +80,7 @@ void fields(Archive& a, T& v) { a(v.name, v.kind, v.boolean, v.integer, v.number
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, ImageRun>
 void fields(Archive& a, T& r) {
-  a(r.path, r.step, r.role, r.values, r.inputs, r.keys, r.value_keys, r.edges);
+  a(r.path, r.step, r.role, r.values, r.inputs, r.keys, r.value_keys, r.list);
 }
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Image>
