@@ -17,7 +17,8 @@ constexpr std::size_t most_bytes_of_numbers = std::size_t{256} << 10;
 
 }  // namespace
 
-/// Of a source, whose values must be looked at anew in each run, of their keys.
+/// Of a source, whose values must be looked at anew in each run, and of a step that dropped items,
+/// of their keys.
 Hash128 StepRun::find_recall_key() const {
   Hasher hasher;
   hasher.text("recall");
@@ -36,6 +37,8 @@ Hash128 StepRun::find_recall_key() const {
   if (lazy())
     for (const auto& keys : whole_keys_)
       for (const Hash128& key : keys) add(key);
+  if (dropped_)
+    for (const Hash128& key : kept_keys_) add(key);
   return hasher.hash();
 }
 

@@ -20,8 +20,63 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// A pair that fails while it is told to.
+struct Flaky : toy::EdgeStep {
+  static inline bool fails = false;
+  struct In {
+    toy::OverEdges edges;
+    Ends<toy::Segment> segments;
+  };
+  struct Params {};
+  struct Out {
+    toy::Matches matches;
+  };
+  static void describe(Declaration<Flaky>& is) {
+    is.name("test.flaky").version(1).summary("Pairs, or not.").source("");
+    is.input("edges", &In::edges, "").input("segments", &In::segments, "");
+    is.output("matches", &Out::matches, "");
+  }
+  Out run(const In& in, const Params&, Context&) const {
+    if (fails) throw Error("not today");
+    (void)in;
+    return {engine_test::noted(3, 4)};
+  }
+};
+
+/// How many pairs all edges have.
+struct CountPairs : WholeStep {
+  struct In {
+    Each<toy::Matches> matches;
+  };
+  struct Params {};
+  struct Out {
+    toy::Metrics metrics;
+  };
+  static void describe(Declaration<CountPairs>& is) {
+    is.name("test.count").version(1).summary("Counts pairs.").source("");
+    is.input("matches", &In::matches, "").output("metrics", &Out::metrics, "");
+  }
+  Out run(const In& in, const Params&, Context&) const {
+    double pairs = 0;
+    for (std::size_t k = 0; k < in.matches.size(); ++k)
+      pairs += static_cast<double>(in.matches.open(k)->weight.size());
+    Out out;
+    out.metrics.numbers = {{"pairs", pairs, ""}};
+    return out;
+  }
+};
+
+Registry with_flaky() {
+  static const StepOf<Flaky> flaky;
+  static const StepOf<CountPairs> count;
+  Registry steps = engine_test::registry();
+  steps.add(flaky);
+  steps.add(count);
+  return steps;
+}
+
 struct Recall : testing::Test {
-  const Registry steps = engine_test::registry();
+  const Registry steps = with_flaky();
   const fs::path folder = fs::temp_directory_path() / ("plumb_recall_" + std::to_string(getpid()));
   Trimmed trimmed;  ///< by the last run
   ~Recall() override { fs::remove_all(folder); }
@@ -129,6 +184,20 @@ TEST_F(Recall, AChangeIsMadeWithAllThatFollows) {
     }
   const RunResult third = run(plan(changed), true);
   EXPECT_EQ(text_of(second), text_of(third));
+}
+
+TEST_F(Recall, WhatFollowsFromADroppedItemIsMadeAnewWhenItComes) {
+  const std::string more =
+      "  tried: {use: test.flaky, from: {edges: edges, segments: merged}, on_error: drop}\n"
+      "  found: {use: test.count, from: tried}\n"
+      "  told: {use: test.write, from: {metrics: found}, with: {name: found.txt}}\n";
+  Flaky::fails = true;
+  const RunResult first = run(plan(engine_test::halving_steps, more));
+  Flaky::fails = false;
+  const RunResult second = run(plan(engine_test::halving_steps, more));
+  const RunResult fresh = run(plan(engine_test::halving_steps, more), true);
+  EXPECT_EQ(text_of(second), text_of(fresh));
+  EXPECT_NE(text_of(second), text_of(first));
 }
 
 TEST_F(Recall, IsNotAskedByARunThatRefreshes) {

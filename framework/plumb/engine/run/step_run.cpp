@@ -47,7 +47,8 @@ void StepRun::start() {
     start_items();
   else
     start_whole();
-  if (lazy()) recall();  // what its values counted
+  if (lazy()) recall();                           // what its values counted
+  if (dropped_) recall_key_ = find_recall_key();  // the next run may do better: others must see it
 }
 
 /// Of a step that was recalled, opened when somebody asks.
