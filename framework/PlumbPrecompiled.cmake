@@ -3,7 +3,7 @@
 set(PLUMB_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <mutex> <optional> <set> <sstream>
                       <string> <string_view> <unordered_map> <variant> <vector>)
 set(PLUMB_PRECOMPILED_SLAM <Eigen/Core> <Eigen/Geometry>)
-set(PLUMB_PRECOMPILED_SDK ${CMAKE_SOURCE_DIR}/framework/plumb/plugin/module.hpp ${CMAKE_SOURCE_DIR}/framework/plumb/slam/step.hpp)
+set(PLUMB_PRECOMPILED_SDK <plumb/plugin/module.hpp> <plumb/slam/step.hpp>)  # by no path of this tree, so that ccache knows it in another
 
 # plumb_precompiled_by(OWNER LIBRARIES HEADER...): a target from which others that link the LIBRARIES, a list, take its precompiled headers.
 function(plumb_precompiled_by owner libraries)
