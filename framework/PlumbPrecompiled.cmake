@@ -25,6 +25,13 @@ function(plumb_precompiled_step target)
   endif()
   target_precompile_headers(${target} REUSE_FROM plumb_precompiled_for_steps)
 endfunction()
+# The same for a PORTABLE module, which is compiled for any x86-64.
+function(plumb_precompiled_portable_step target)
+  if(NOT TARGET plumb_precompiled_for_portable_steps)
+    plumb_precompiled_by(plumb_precompiled_for_portable_steps plumb_slam ${PLUMB_PRECOMPILED} ${PLUMB_PRECOMPILED_SLAM} ${PLUMB_PRECOMPILED_SDK})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM plumb_precompiled_for_portable_steps)
+endfunction()
 
 # A test program takes the header of OWNER, which is compiled as for a library.
 function(plumb_precompiled_test_by owner target libraries)
@@ -37,9 +44,13 @@ function(plumb_precompiled_test_by owner target libraries)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
-# plumb_precompiled_test(TARGET): a test program. plumb_precompiled_core_test(TARGET): one of the core, without Eigen.
+# plumb_precompiled_test(TARGET): a test program. plumb_precompiled_portable_test(TARGET): one of a PORTABLE module.
+# plumb_precompiled_core_test(TARGET): one of the core, without Eigen.
 function(plumb_precompiled_test target)
   plumb_precompiled_test_by(plumb_precompiled_for_tests ${target} "plumb_slam;plumb_arch" ${PLUMB_PRECOMPILED_SLAM} ${PLUMB_PRECOMPILED_SDK})
+endfunction()
+function(plumb_precompiled_portable_test target)
+  plumb_precompiled_test_by(plumb_precompiled_for_portable_tests ${target} plumb_slam ${PLUMB_PRECOMPILED_SLAM} ${PLUMB_PRECOMPILED_SDK})
 endfunction()
 function(plumb_precompiled_core_test target)
   plumb_precompiled_test_by(plumb_precompiled_for_core_tests ${target} plumb)

@@ -1,6 +1,5 @@
 /// plumb cache: what the cache holds, whether it is whole, and how it is kept small.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>
 #include <iomanip>
@@ -10,6 +9,7 @@
 
 #include "cache_size.hpp"
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/amount.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/store/index.hpp"
@@ -97,7 +97,7 @@ void verify_store(const Options& options) {
   else
     std::cout << verified.damaged.size()
               << " damaged and removed; a run that needs them makes them again\n";
-  if (!verified.good(*store)) throw CLI::RuntimeError(1);
+  if (!verified.good(*store)) throw ExitWith{1};
 }
 
 void prune_store(const Options& options) {
@@ -122,32 +122,31 @@ void prune_store(const Options& options) {
 
 }  // namespace
 
-void add_cache(CLI::App& app) {
-  auto* command = app.add_subcommand("cache", "Shows, checks and prunes what runs have kept");
+void add_cache(Command& program) {
+  Command command = program.add_subcommand("cache", "Shows, checks and prunes what runs have kept");
   auto options = std::make_shared<Options>();
-  options->store.add_to(*command);
-  command->require_subcommand(0, 1);
-  command->footer(
+  options->store.add_to(command);
+  command.require_subcommand(0, 1);
+  command.footer(
       "Without a sub-command: number and size of the results by step, and the bound that runs hold "
       "(run --cache-size, PLUMB_CACHE_SIZE). All of it is safe while runs use the cache; what is "
       "removed is made again.\n"
       "Example: plumb cache prune --older 30d --size 10GiB");
-  auto* check = command->add_subcommand(
+  Command check = command.add_subcommand(
       "verify", "Checks every result and the index, and removes what is damaged");
-  check->footer("Exit 1 when anything was damaged.");
-  auto* less = command->add_subcommand("prune", "Removes results, least recently used first");
-  less->add_option("--older", options->older,
-                   "Removes what was not used for this long: 12h, 30d, 8w");
-  less->add_option("--size", options->size,
-                   "Removes until no more than this is left: 500MB, 10GiB");
-  less->footer("Example: plumb cache prune --older 30d --size 10GiB");
-  for (auto* sub : {check, less})
-    sub->fallthrough();  // --cache-dir and --trust-cache behind the sub-command are the command's
-                         // own
-  check->callback([options] { verify_store(*options); });
-  less->callback([options] { prune_store(*options); });
-  command->callback([command, options] {
-    if (command->get_subcommands().empty()) show(*options);
+  check.footer("Exit 1 when anything was damaged.");
+  Command less = command.add_subcommand("prune", "Removes results, least recently used first");
+  less.add_option("--older", options->older,
+                  "Removes what was not used for this long: 12h, 30d, 8w");
+  less.add_option("--size", options->size, "Removes until no more than this is left: 500MB, 10GiB");
+  less.footer("Example: plumb cache prune --older 30d --size 10GiB");
+  for (Command sub : {check, less})
+    sub.fallthrough();  // --cache-dir and --trust-cache behind the sub-command are the command's
+                        // own
+  check.callback([options] { verify_store(*options); });
+  less.callback([options] { prune_store(*options); });
+  command.callback([command, options] {
+    if (!command.has_subcommand()) show(*options);
   });
 }
 

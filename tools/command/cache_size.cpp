@@ -1,9 +1,9 @@
 #include "cache_size.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "plumb/data/amount.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
@@ -40,7 +40,7 @@ std::string amount_above(std::uint64_t bytes) {
 
 }  // namespace
 
-void CacheSize::add_to(CLI::App& command) {
+void CacheSize::add_to(Command& command) {
   command.add_option(option, given,
                      "What the cache may hold, such as 50GB, or `none`: at the end of a run, and "
                      "meanwhile, results that were used least recently are removed, but none that "

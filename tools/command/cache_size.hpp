@@ -24,7 +24,7 @@ struct CacheLimit {
 struct CacheSize {
   std::string given = {};  ///< by --cache-size
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   /// Throws UsageError for what is no amount, and where there is no cache to be bounded.
   void require_one_meaning(const StoreOption& store) const;
   CacheLimit limit(Store& store) const;

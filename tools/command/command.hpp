@@ -7,30 +7,33 @@
 
 #include "plumb/plugin/registry.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plumb::command {
 
 /// What the program exits with, beside 0; `plumb --help` says what they mean.
 inline constexpr int exit_refused = 1, exit_wrong_command_line = 2, exit_failed = 3,
                      exit_unsettled = 4;
 
-void add_run(CLI::App& app);
-void add_check(CLI::App& app);
-void add_resolve(CLI::App& app);
-void add_graph(CLI::App& app);
-void add_migrate(CLI::App& app);
-void add_list(CLI::App& app);
-void add_inspect(CLI::App& app);
-void add_doctor(CLI::App& app);
-void add_schema(CLI::App& app);
-void add_simulate(CLI::App& app);
-void add_evaluate(CLI::App& app);
-void add_compare(CLI::App& app);
-void add_cache(CLI::App& app);
-void add_worker(CLI::App& app);
+/// Thrown by a callback that has said all there is to say: the program exits with `code`.
+struct ExitWith {
+  int code;
+};
+
+class Command;  // command_line.hpp
+
+void add_run(Command& program);
+void add_check(Command& program);
+void add_resolve(Command& program);
+void add_graph(Command& program);
+void add_migrate(Command& program);
+void add_list(Command& program);
+void add_inspect(Command& program);
+void add_doctor(Command& program);
+void add_schema(Command& program);
+void add_simulate(Command& program);
+void add_evaluate(Command& program);
+void add_compare(Command& program);
+void add_cache(Command& program);
+void add_worker(Command& program);
 
 /// `--plugin-path`, before or behind the sub-command; filled while the command line is read.
 extern std::vector<std::filesystem::path> plugin_path;

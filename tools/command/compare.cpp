@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cache_size.hpp"
+#include "command_line.hpp"
 #include "console.hpp"
 #include "exit_guard.hpp"
 #include "interrupt.hpp"
@@ -259,14 +260,14 @@ void compare(const Options& options) {
       } catch (const std::exception& e) {
         std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
                   << ": " << e.what() << "\n";
-        throw CLI::RuntimeError(exit_failed);
+        throw ExitWith{exit_failed};
       }
     }
   cache.end(options.quiet);
   if (store) say_faults(*store);
   const Comparison comparison = plumb::compare(variant_names, input_names, figures);
   std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
-  if (!shared.settled) throw CLI::RuntimeError(exit_unsettled);
+  if (!shared.settled) throw ExitWith{exit_unsettled};
 }
 
 /// What `--variant` takes; the name becomes a folder's.
@@ -282,56 +283,55 @@ std::string fault_of_variant(const std::string& option) {
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_compare(Command& program) {
+  Command command = program.add_subcommand(
       "compare",
       "Runs a pipeline and variants of it on the same inputs and compares their numbers");
   auto options = std::make_shared<Options>();
-  command->add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)")->required();
+  command.add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)").required();
   command
-      ->add_option("--variant", options->variants,
-                   "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set "
-                   "does not reach it); may be given again")
-      ->required()
-      ->allow_extra_args(false)
-      ->check(fault_of_variant);
+      .add_option("--variant", options->variants,
+                  "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set "
+                  "does not reach it); may be given again")
+      .required()
+      .one_value_each()
+      .check(fault_of_variant);
   command
-      ->add_option("--input", options->inputs,
-                   "What the parameter 'input' is set to: a log, or a sequence's folder, of which "
-                   "log.clf, truth.tum and "
-                   "plan.txt are used where they are there; may be given again")
-      ->required()
-      ->allow_extra_args(false);
+      .add_option("--input", options->inputs,
+                  "What the parameter 'input' is set to: a log, or a sequence's folder, of which "
+                  "log.clf, truth.tum and "
+                  "plan.txt are used where they are there; may be given again")
+      .required()
+      .one_value_each();
   command
-      ->add_option("--set", options->sets,
-                   "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
-                   "presets; a '$' in it is written '$$'; may be given again")
-      ->allow_extra_args(false)
-      ->check(fault_of_set);
+      .add_option("--set", options->sets,
+                  "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
+                  "presets; a '$' in it is written '$$'; may be given again")
+      .one_value_each()
+      .check(fault_of_set);
   command
-      ->add_option("--metric", options->figures.metrics,
-                   "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "
-                   "those of the steps error, "
-                   "map_error and relation_error, of the last stage that they measure")
-      ->allow_extra_args(false);
+      .add_option("--metric", options->figures.metrics,
+                  "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "
+                  "those of the steps error, "
+                  "map_error and relation_error, of the last stage that they measure")
+      .one_value_each();
   command
-      ->add_option("--time", options->figures.timed,
-                   "Steps whose time and iterations are compared: how their 'use' begins; may be "
-                   "given again")
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Keeps each run's results in OUTPUT/VARIANT/INPUT");
+      .add_option("--time", options->figures.timed,
+                  "Steps whose time and iterations are compared: how their 'use' begins; may be "
+                  "given again")
+      .one_value_each()
+      .capture_default_str();
+  command.add_option("-o,--output", options->output,
+                     "Keeps each run's results in OUTPUT/VARIANT/INPUT");
   command
-      ->add_option("--threads", options->threads,
-                   "Threads to use; 0 for as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  options->store.add_to(*command);
-  options->cache_size.add_to(*command);
-  command->add_flag("--json", options->json, "One JSON object with every value instead of a table");
-  command->add_flag("--quiet", options->quiet, "No line for each run");
-  command->footer(
+      .add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")
+      .range(0, 1024)
+      .capture_default_str();
+  options->store.add_to(command);
+  options->cache_size.add_to(command);
+  command.add_flag("--json", options->json, "One JSON object with every value instead of a table");
+  command.add_flag("--quiet", options->quiet, "No line for each run");
+  command.footer(
       "The columns are means over the inputs; 'less by' is how much less the pipeline has than the "
       "variant, with the 95 % confidence\n"
       "of the inputs' differences. Times are CPU seconds: of those steps, and of all.\n"
@@ -340,7 +340,7 @@ void add_compare(CLI::App& app) {
       "What is taken from a cache counts as no time, so that by itself compare uses none.\n\n"
       "  plumb compare pipelines/zhang2023.yaml --variant "
       "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2");
-  command->callback([options] { compare(*options); });
+  command.callback([options] { compare(*options); });
 }
 
 }  // namespace plumb::command

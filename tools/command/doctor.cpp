@@ -4,12 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstring>
 #include <iostream>
 #include <set>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/counted.hpp"
 
 namespace plumb::command {
@@ -45,11 +45,11 @@ std::string trial(const std::string& file) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_doctor(Command& program) {
+  Command command = program.add_subcommand(
       "doctor", "Says what modules were found where, and what was refused and why");
-  command->footer("Exit 1 when anything was refused.");
-  command->callback([] {
+  command.footer("Exit 1 when anything was refused.");
+  command.callback([] {
     const Registry steps = installed_steps();
     std::cout << "plumb " << PLUMB_VERSION << "\nABI: " << abi_tag()
               << "\n\nSearched, in this order:\n";
@@ -70,7 +70,7 @@ void add_doctor(CLI::App& app) {
               << counted(modules.size(), "modules") << "; " << good << " load\n";
     for (const Refusal& refusal : refused)
       std::cout << "refused: " << refusal.file.string() << "\n  " << refusal.why << "\n";
-    if (!refused.empty()) throw CLI::RuntimeError(1);
+    if (!refused.empty()) throw ExitWith{1};
   });
 }
 

@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "command_line.hpp"
 #include "plumb/data/amount.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
@@ -36,15 +36,15 @@ std::string too_little(std::uint64_t bytes, const std::string& given) {
 
 }  // namespace
 
-void ExecutorOptions::add_to(CLI::App& command) {
+void ExecutorOptions::add_to(Command& command) {
   command
       .add_option("--executor", executor,
                   "Where calls are made: local, in this process; process, in worker processes, so "
                   "that a module that crashes or hangs costs its item; slurm, on the cluster whose "
                   "machines share the cache")
-      ->check(CLI::IsMember({"local", "process", "slurm"}))
-      ->default_str("local");
-  command.add_flag("--isolate", isolate, "Former name of --executor process")->group("");
+      .one_of({"local", "process", "slurm"})
+      .default_str("local");
+  command.add_flag("--isolate", isolate, "Former name of --executor process").group("");
   command.add_option("--executor-profile", profile,
                      "Partition, time, memory, chunk and so on of the cluster's jobs (YAML)");
   command.add_option("--time-limit", time_limit,

@@ -8,18 +8,16 @@
 #include "plumb/engine/run/executor.hpp"
 #include "plumb/store/store.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plumb::command {
+
+class Command;  // command_line.hpp
 
 struct ExecutorOptions {
   bool isolate = false;  ///< by the former name of --executor process
   std::string executor, time_limit, item_memory;
   std::filesystem::path profile;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   /// Throws UsageError for options that do not go together, and for values that are none.
   /// `memory`: the run's bound [bytes], 0 for none.
   void require_one_meaning(unsigned threads, std::uint64_t memory) const;

@@ -1,10 +1,10 @@
 /// plumb list, inspect: what steps there are, from their manifests alone.
 
-#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "licence_table.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
@@ -74,13 +74,13 @@ void print_steps(const Registry& steps) {
 
 }  // namespace
 
-void add_list(CLI::App& app) {
-  auto* command = app.add_subcommand("list", "Lists the steps that pipelines can use");
+void add_list(Command& program) {
+  Command command = program.add_subcommand("list", "Lists the steps that pipelines can use");
   auto licences = std::make_shared<bool>(false);
-  command->add_flag("--licences", *licences,
-                    "What whoever loads a module accepts: its own licence and those of the "
-                    "libraries that it brings, with its steps and the reason");
-  command->callback([licences] {
+  command.add_flag("--licences", *licences,
+                   "What whoever loads a module accepts: its own licence and those of the "
+                   "libraries that it brings, with its steps and the reason");
+  command.callback([licences] {
     const Registry steps = installed_steps();
     if (*licences)
       print_licences(std::cout, steps);
@@ -91,14 +91,14 @@ void add_list(CLI::App& app) {
   });
 }
 
-void add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_inspect(Command& program) {
+  Command command = program.add_subcommand(
       "inspect", "Shows one step's ports, parameters, units, ranges, defaults, source and licence");
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  command->add_option("STEP", *name, "FAMILY.NAME, as in `plumb list`")->required();
-  command->add_flag("--json", *as_json, "As JSON");
-  command->callback([name, as_json] {
+  command.add_option("STEP", *name, "FAMILY.NAME, as in `plumb list`").required();
+  command.add_flag("--json", *as_json, "As JSON");
+  command.callback([name, as_json] {
     const Registry steps = installed_steps();
     const StepDescription* step = steps.find(*name);
     if (!step) {

@@ -4,13 +4,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/plain_text.hpp"
 #include "plumb/data/io/staged_folder.hpp"
@@ -75,8 +75,9 @@ int said() {
 }
 
 /// All that stands before and behind the sub-commands.
-void set_up(CLI::App& app) {
-  app.footer(
+void set_up(plumb::command::Program& program) {
+  plumb::command::Command command = program.command();
+  command.footer(
       "Start with:\n"
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
       "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
@@ -87,16 +88,31 @@ void set_up(CLI::App& app) {
       "4 done and all results in place, but something about them is not as it should be: standard "
       "output did not take what was to be said,\n"
       "or the disk did not take the end of it; it is said which.");
-  app.require_subcommand(1);
-  app.fallthrough();  // what stands below serves behind the sub-command as well
-  app.add_option("--plugin-path", plumb::command::plugin_path,
-                 "A further folder with modules (also PLUMB_PLUGIN_PATH), before or behind the "
-                 "command; may be given again")
-      ->allow_extra_args(false);
-  app.set_version_flag("--version", PLUMB_VERSION);
-  app.failure_message([](const CLI::App* program, const CLI::Error& error) {
-    return "plumb: " + plumb::command::usage_sentence(*program, error) + "\n";
-  });
+  command.require_subcommand(1, 1);
+  command.fallthrough();  // what stands below serves behind the sub-command as well
+  command
+      .add_option("--plugin-path", plumb::command::plugin_path,
+                  "A further folder with modules (also PLUMB_PLUGIN_PATH), before or behind the "
+                  "command; may be given again")
+      .one_value_each();
+  program.add_version(PLUMB_VERSION);
+}
+
+void add_commands(plumb::command::Command command) {
+  plumb::command::add_run(command);
+  plumb::command::add_check(command);
+  plumb::command::add_resolve(command);
+  plumb::command::add_graph(command);
+  plumb::command::add_migrate(command);
+  plumb::command::add_list(command);
+  plumb::command::add_inspect(command);
+  plumb::command::add_doctor(command);
+  plumb::command::add_schema(command);
+  plumb::command::add_simulate(command);
+  plumb::command::add_evaluate(command);
+  plumb::command::add_compare(command);
+  plumb::command::add_cache(command);
+  plumb::command::add_worker(command);
 }
 
 }  // namespace
@@ -110,30 +126,14 @@ int main(int argc, char** argv) {
     return plumb::command::exit_refused;
   }
   const plumb::command::PlainStream out(std::cout), err(std::cerr);
-  CLI::App app{"Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.",
-               "plumb"};
-  set_up(app);
-  plumb::command::add_run(app);
-  plumb::command::add_check(app);
-  plumb::command::add_resolve(app);
-  plumb::command::add_graph(app);
-  plumb::command::add_migrate(app);
-  plumb::command::add_list(app);
-  plumb::command::add_inspect(app);
-  plumb::command::add_doctor(app);
-  plumb::command::add_schema(app);
-  plumb::command::add_simulate(app);
-  plumb::command::add_evaluate(app);
-  plumb::command::add_compare(app);
-  plumb::command::add_cache(app);
-  plumb::command::add_worker(app);
+  plumb::command::Program program(
+      "plumb", "Plumb straightens drifted laser-SLAM point clouds, as a pipeline in YAML says.");
+  set_up(program);
+  add_commands(program.command());
   try {
-    app.parse(argc, argv);
-    return said();
-  } catch (const CLI::RuntimeError& e) {
-    return e.get_exit_code();
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? said() : plumb::command::exit_wrong_command_line;
+    return program.parse(argc, argv) ? said() : plumb::command::exit_wrong_command_line;
+  } catch (const plumb::command::ExitWith& e) {
+    return e.code;
   } catch (const plumb::command::UsageError& e) {
     std::cerr << "plumb: " << e.what() << '\n';
     return plumb::command::exit_wrong_command_line;

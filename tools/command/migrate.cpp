@@ -2,10 +2,10 @@
 
 #include "plumb/pipeline/migrate.hpp"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "replaced_file.hpp"
@@ -38,20 +38,20 @@ void migrate(const Options& options) {
 
 }  // namespace
 
-void add_migrate(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_migrate(Command& program) {
+  Command command = program.add_subcommand(
       "migrate", "Rewrites a pipeline or preset that uses names of an earlier release");
   auto options = std::make_shared<Options>();
-  command->add_option("PIPELINE", options->file, "A pipeline or a preset (YAML)")->required();
-  command->add_option("-o,--output", options->output,
-                      "File for the result; without it the pipeline itself is replaced");
-  command->footer(
+  command.add_option("PIPELINE", options->file, "A pipeline or a preset (YAML)").required();
+  command.add_option("-o,--output", options->output,
+                     "File for the result; without it the pipeline itself is replaced");
+  command.footer(
       "Comments, order and layout stay. Where a default has changed since, the former one is "
       "written out.\n"
       "Exit 1 and nothing written when the pipeline has mistakes, or a place cannot be "
       "rewritten.\n\n"
       "  plumb migrate my_pipeline.yaml");
-  command->callback([options] { migrate(*options); });
+  command.callback([options] { migrate(*options); });
 }
 
 }  // namespace plumb::command

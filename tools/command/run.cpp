@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cache_size.hpp"
+#include "command_line.hpp"
 #include "console.hpp"
 #include "executor_options.hpp"
 #include "exit_guard.hpp"
@@ -108,12 +109,9 @@ std::uint64_t memory_of_text(const std::string& text) {
 
 /// An empty value is a mistake of a script: taken as none it would run without its bound, or into
 /// the user's cache.
-void require_values(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty())
-        throw UsageError(option->get_name() +
-                         ": its value is empty; give one, or leave the option out");
+void require_values(const Command& command) {
+  if (const auto option = command.option_without_value())
+    throw UsageError(*option + ": its value is empty; give one, or leave the option out");
 }
 
 /// What leaves memory, and what workers make, goes through the cache.
@@ -198,15 +196,15 @@ void run(Options& options) {
     report(options, plan, result, store.get());
   } catch (const std::exception& e) {
     std::cerr << "plumb: " << e.what() << "\n";
-    throw CLI::RuntimeError(exit_failed);
+    throw ExitWith{exit_failed};
   }
   if (unsettled.empty()) return;
   std::cerr << "plumb: " << unsettled << "\n";
-  throw CLI::RuntimeError(exit_unsettled);
+  throw ExitWith{exit_unsettled};
 }
 
 /// What the run tells, on the screen and in files beside the results.
-void add_reports(CLI::App& command, Options& options) {
+void add_reports(Command& command, Options& options) {
   command.add_flag("--quiet", options.quiet, "Only warnings and errors");
   command.add_flag("--times,!--no-times", options.times,
                    "Show the time and memory that each step took (unless --no-times or --quiet)");
@@ -221,64 +219,63 @@ void add_reports(CLI::App& command, Options& options) {
 }
 
 /// --locked, which stands for a pipeline and all that goes with one.
-void add_locked(CLI::App& command, Options& options) {
+void add_locked(Command& command, Options& options) {
   command.add_flag("--verify-inputs", options.verify_inputs,
                    "Read the inputs' files to know them by content, not by size and time alone");
-  auto* pipeline = command.get_option("PIPELINE")->required(false);
+  command.get_option("PIPELINE").required(false);
   command
       .add_option("--locked", options.locked,
                   "Repeat the run of this run.lock.yaml, if all that it depends on is as it was; "
                   "takes no PIPELINE")
-      ->excludes(pipeline)
-      ->excludes("--preset")
-      ->excludes("--set");
+      .excludes("PIPELINE")
+      .excludes("--preset")
+      .excludes("--set");
   command.get_option("--untrusted")
-      ->excludes("--locked")
-      ->excludes("--isolate")
-      ->excludes("--executor")
-      ->excludes("--executor-profile");
+      .excludes("--locked")
+      .excludes("--isolate")
+      .excludes("--executor")
+      .excludes("--executor-profile");
 }
 
 }  // namespace
 
-void add_run(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("run", "Checks and runs a pipeline and leaves its results in a folder");
+void add_run(Command& program) {
+  Command command = program.add_subcommand(
+      "run", "Checks and runs a pipeline and leaves its results in a folder");
   auto options = std::make_shared<Options>();
-  options->pipeline.add_to(*command);
+  options->pipeline.add_to(command);
   options->pipeline.overlay.needs_files = true;
   command
-      ->add_option("-o,--output", options->output,
-                   "Folder for the results; an earlier run in it is replaced, if all in it is as "
-                   "the run left it")
-      ->required();
+      .add_option("-o,--output", options->output,
+                  "Folder for the results; an earlier run in it is replaced, if all in it is as "
+                  "the run left it")
+      .required();
   command
-      ->add_option("--threads", options->threads,
-                   "Threads to use; 0 for as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  options->store.add_to(*command);
-  options->store.add_usage_to(*command);
-  options->cache_size.add_to(*command);
-  command->add_flag("--explain", options->explain,
-                    "Say of each step whether its results were reused, and the first thing that "
-                    "differs from the last run");
-  command->add_option(
+      .add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")
+      .range(0, 1024)
+      .capture_default_str();
+  options->store.add_to(command);
+  options->store.add_usage_to(command);
+  options->cache_size.add_to(command);
+  command.add_flag("--explain", options->explain,
+                   "Say of each step whether its results were reused, and the first thing that "
+                   "differs from the last run");
+  command.add_option(
       "--memory", options->memory,
       "Bound of resident memory, such as 2GiB: what does not fit waits in the cache");
-  options->executor.add_to(*command);
-  options->untrusted.add_to(*command);
-  add_reports(*command, *options);
-  add_locked(*command, *options);
-  command->footer(
+  options->executor.add_to(command);
+  options->untrusted.add_to(command);
+  add_reports(command, *options);
+  add_locked(command, *options);
+  command.footer(
       "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set "
       "input=DIR -o OUT\n"
       "The results are the same for any number of threads. No results are left behind when a run "
       "fails or is interrupted.");
-  command->callback([options, command] {
-    require_values(*command);
+  command.callback([options, command] {
+    require_values(command);
     if (options->locked.empty() && options->pipeline.file.empty())
-      throw CLI::RequiredError("PIPELINE or --locked");
+      throw UsageError("PIPELINE or --locked is required; `plumb run --help` says what there is");
     run(*options);
   });
 }

@@ -2,11 +2,11 @@
 
 #include "plumb/pipeline/print/schema.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_text.hpp"
 
@@ -23,13 +23,13 @@ bool is_ours(const std::filesystem::path& file) {
 
 }  // namespace
 
-void add_schema(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_schema(Command& program) {
+  Command command = program.add_subcommand(
       "schema", "Writes the JSON Schema of pipelines, for editors and a second judge");
   auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("-o,--output", *folder,
-                      "Folder for pipeline.schema.json; without it, it is printed");
-  command->callback([folder] {
+  command.add_option("-o,--output", *folder,
+                     "Folder for pipeline.schema.json; without it, it is printed");
+  command.callback([folder] {
     const std::string text = pipeline_schema(installed_steps());
     if (folder->empty()) {
       std::cout << text;

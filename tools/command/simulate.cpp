@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "command/command.hpp"
+#include "command_line.hpp"
 #include "interrupt.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
@@ -157,11 +157,11 @@ void run(const Arguments& arguments) {
             << " s)\n";
   if (made.unsettled.empty()) return;
   std::cerr << "plumb: " << made.unsettled << "\n";
-  throw CLI::RuntimeError(exit_unsettled);
+  throw ExitWith{exit_unsettled};
 }
 
 /// An option of the command line, of streets, of buildings or of both.
-void offer(CLI::App& command, const std::shared_ptr<Arguments>& arguments,
+void offer(Command& command, const std::shared_ptr<Arguments>& arguments,
            const simulate::OptionRange& option, const std::string& about,
            const std::string& group) {
   std::string flag = std::string("--") + option.key, dashed = flag;
@@ -169,16 +169,16 @@ void offer(CLI::App& command, const std::shared_ptr<Arguments>& arguments,
   if (dashed != flag) flag += "," + dashed;
   const std::string key = option.key;
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           flag, [arguments, key](const std::string& text) { arguments->options[key] = text; },
           about)
-      ->type_name(option.quantity == Quantity::none
-                      ? "VALUE"
-                      : std::string("QUANTITY[") + si_symbol(option.quantity) + "]")
-      ->group(group);
+      .type_name(option.quantity == Quantity::none
+                     ? "VALUE"
+                     : std::string("QUANTITY[") + si_symbol(option.quantity) + "]")
+      .group(group);
 }
 
-void offer_all(CLI::App& command, const std::shared_ptr<Arguments>& arguments) {
+void offer_all(Command& command, const std::shared_ptr<Arguments>& arguments) {
   const auto& indoors = simulate::indoor_options();
   const auto also = [&](const char* key) {
     return std::find_if(indoors.begin(), indoors.end(),
@@ -204,9 +204,10 @@ void offer_all(CLI::App& command, const std::shared_ptr<Arguments>& arguments) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("simulate", "Make a laser-SLAM sequence with exact truth");
-  command->footer(
+void add_simulate(Command& program) {
+  Command command =
+      program.add_subcommand("simulate", "Make a laser-SLAM sequence with exact truth");
+  command.footer(
       "SCENE is city_loop, figure_eight, out_and_back, blocks (streets, seen by a 3-D scanner), "
       "corridor, lookalike, rooms (buildings, seen by a 2-D scanner), or a YAML file with the "
       "options below as keys, such as\n"
@@ -225,23 +226,22 @@ void add_simulate(CLI::App& app) {
       "  plumb simulate corridor --drop-in-turns 0.5 --kidnap 2 -o corridor");
   const auto arguments = std::make_shared<Arguments>();
   command
-      ->add_option("scene", arguments->scene,
-                   "A shipped scene, or a scene file (city_loop if not given)")
-      ->type_name("SCENE");
+      .add_option("scene", arguments->scene,
+                  "A shipped scene, or a scene file (city_loop if not given)")
+      .type_name("SCENE");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Folder to make; an earlier simulation in it is replaced")
-      ->required()
-      ->type_name("DIR");
-  offer_all(*command, arguments);
+      .add_option("-o,--output", arguments->output,
+                  "Folder to make; an earlier simulation in it is replaced")
+      .required()
+      .type_name("DIR");
+  offer_all(command, arguments);
   command
-      ->add_option("--drift-from", arguments->drift_from,
-                   "Lay the errors of this odometry onto the path, by distance")
-      ->expected(2)
-      ->type_name("ODOMETRY TRUTH");
-  command->add_option("--threads", arguments->threads, "Threads; 0: one a core")
-      ->check(CLI::Range(0, 1024));
-  command->callback([arguments] { run(*arguments); });
+      .add_option("--drift-from", arguments->drift_from,
+                  "Lay the errors of this odometry onto the path, by distance")
+      .expected(2)
+      .type_name("ODOMETRY TRUTH");
+  command.add_option("--threads", arguments->threads, "Threads; 0: one a core").range(0, 1024);
+  command.callback([arguments] { run(*arguments); });
 }
 
 }  // namespace plumb::command

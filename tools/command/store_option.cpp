@@ -1,9 +1,9 @@
 #include "store_option.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "plumb/data/error.hpp"
 #include "usage.hpp"
 
@@ -22,7 +22,7 @@ fs::path user_cache_folder() {
   return {};
 }
 
-void StoreOption::add_to(CLI::App& command) {
+void StoreOption::add_to(Command& command) {
   const bool asks_environment = otherwise.empty();
   command.add_option("--cache-dir", given,
                      std::string("Folder in which results are kept, and from which a later run "
@@ -30,16 +30,16 @@ void StoreOption::add_to(CLI::App& command) {
                          (asks_environment ? "Without: PLUMB_CACHE_DIR, or the user's cache "
                                              "folder, ~/.cache/plumb"
                                            : "Without: " + otherwise));
-  command.add_option("--store", former, "Former name of --cache-dir")->group("");
+  command.add_option("--store", former, "Former name of --cache-dir").group("");
   command.add_flag("--trust-cache", trusted,
                    "Use the cache even where others own it or may write it: whoever can, decides "
                    "over the results");
-  command.add_flag("--trust-store", trusted, "Former name of --trust-cache")->group("");
+  command.add_flag("--trust-store", trusted, "Former name of --trust-cache").group("");
 }
 
-void StoreOption::add_usage_to(CLI::App& command) {
+void StoreOption::add_usage_to(Command& command) {
   command.add_flag("--refresh", refresh, "Make all results anew, and keep them in the cache");
-  command.add_flag("--fresh", refresh, "Former name of --refresh")->group("");
+  command.add_flag("--fresh", refresh, "Former name of --refresh").group("");
   command.add_flag("--no-cache", no_cache, "Take nothing from the cache and keep nothing in it");
 }
 

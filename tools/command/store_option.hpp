@@ -8,11 +8,9 @@
 
 #include "plumb/store/store.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plumb::command {
+
+class Command;  // command_line.hpp
 
 struct StoreOption {
   std::string otherwise;  ///< what is meant when the command line says nothing; "" for what the
@@ -21,8 +19,8 @@ struct StoreOption {
   bool trusted = false;                 ///< also one that others own or may write
   bool refresh = false, no_cache = false;
 
-  void add_to(CLI::App& command);        ///< --cache-dir and --trust-cache
-  void add_usage_to(CLI::App& command);  ///< --refresh and --no-cache
+  void add_to(Command& command);        ///< --cache-dir and --trust-cache
+  void add_usage_to(Command& command);  ///< --refresh and --no-cache
   /// Throws UsageError for options that do not go together.
   void require_one_meaning() const;
 

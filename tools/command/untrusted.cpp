@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "command_line.hpp"
 #include "plumb/data/amount.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/fence.hpp"
@@ -60,17 +61,16 @@ fs::path folder_of(const fs::path& file) {
 
 }  // namespace
 
-void Untrusted::add_to(CLI::App& command) {
-  auto* flag =
-      command.add_flag("--untrusted", on_,
-                       "For a stranger's pipeline: it reads only what --set names, uses only the "
-                       "modules that Plumb came with, and has bounds of memory and time");
+void Untrusted::add_to(Command& command) {
+  command.add_flag("--untrusted", on_,
+                   "For a stranger's pipeline: it reads only what --set names, uses only the "
+                   "modules that Plumb came with, and has bounds of memory and time");
   command.add_option("--max-memory", memory_, "With --untrusted: memory that it may allocate")
-      ->needs(flag)
-      ->capture_default_str();
+      .needs("--untrusted")
+      .capture_default_str();
   command.add_option("--max-time", time_, "With --untrusted: time that it may take")
-      ->needs(flag)
-      ->capture_default_str();
+      .needs("--untrusted")
+      .capture_default_str();
 }
 
 void Untrusted::before_reading(PipelineOptions& pipeline) const {

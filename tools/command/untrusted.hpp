@@ -12,7 +12,7 @@ namespace plumb::command {
 
 class Untrusted {
  public:
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   explicit operator bool() const { return on_; }
 
   /// Before the pipeline is read: bounds, and a fence round the folders of the pipeline and presets

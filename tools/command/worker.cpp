@@ -3,10 +3,10 @@
 
 #include <fcntl.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "command.hpp"
+#include "command_line.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_identity.hpp"
 #include "plumb/engine/remote/slurm/chunk.hpp"
@@ -60,26 +60,25 @@ void run_or_refuse(Options& options) {
 
 }  // namespace
 
-void add_worker(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_worker(Command& program) {
+  Command command = program.add_subcommand(
       "worker", "Makes calls for a run: started by run --executor process and by Slurm jobs");
   auto options = std::make_shared<Options>();
-  command->add_option("--cache-dir", options->worker.store, "Folder of the run's results")
-      ->required();
-  command->add_flag("--trust-cache", options->worker.trusted, "The cache may be anyone's");
-  command->add_option("--memory", options->worker.memory,
-                      "What the process may allocate [bytes]; 0 for no bound");
-  command->add_flag("--contents", options->worker.contents, "Input files count by their content");
-  command->add_option("--task", options->task, "The calls of a Slurm job");
-  command->add_option("--chunk-size", options->chunk_size, "Calls of a chunk")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--cpus", options->cpus, "Calls at a time")->check(CLI::Range(1, 1024));
-  command->add_option("--time-limit", options->time_limit, "Of one call [s]; 0 for none");
-  command->add_option("--chunk", options->chunk, "Which chunk, from 0");
-  command->footer(
+  command.add_option("--cache-dir", options->worker.store, "Folder of the run's results")
+      .required();
+  command.add_flag("--trust-cache", options->worker.trusted, "The cache may be anyone's");
+  command.add_option("--memory", options->worker.memory,
+                     "What the process may allocate [bytes]; 0 for no bound");
+  command.add_flag("--contents", options->worker.contents, "Input files count by their content");
+  command.add_option("--task", options->task, "The calls of a Slurm job");
+  command.add_option("--chunk-size", options->chunk_size, "Calls of a chunk").positive();
+  command.add_option("--cpus", options->cpus, "Calls at a time").range(1, 1024);
+  command.add_option("--time-limit", options->time_limit, "Of one call [s]; 0 for none");
+  command.add_option("--chunk", options->chunk, "Which chunk, from 0");
+  command.footer(
       "Example: none; it is not meant to be started by hand. `plumb run --help` has "
       "--executor.");
-  command->callback([options] { run_or_refuse(*options); });
+  command.callback([options] { run_or_refuse(*options); });
 }
 
 }  // namespace plumb::command

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "simulate/scene.hpp"
 #include "simulate/scene_entries.hpp"
 
 namespace plumb::simulate {
@@ -64,7 +63,7 @@ const std::vector<IndoorOption>& indoor_options() {
 
 bool is_indoor_scene(const std::filesystem::path& file) {
   for (const SceneEntry& entry : scene_entries(file))
-    if (entry.key == "path") return entry.value.IsScalar() && is_indoor(entry.value.Scalar());
+    if (entry.key == "path") return entry.value && is_indoor(*entry.value);
   return false;
 }
 
@@ -77,14 +76,7 @@ IndoorScene read_indoor_scene(const std::filesystem::path& file) {
 }
 
 std::string scene_text(const IndoorScene& scene) {
-  YAML::Emitter out;
-  out << YAML::BeginMap;
-  for (const IndoorOption& option : indoor_options())
-    if (const auto text = option_text(scene, option))
-      out << YAML::Key << option.key << YAML::Value << *text;
-  out << YAML::EndMap;
-  return std::string(scene_mark) + ", with all it was made from; give it back to repeat it.\n" +
-         out.c_str() + "\n";
+  return text_of_scene(values_of(scene, indoor_options()));
 }
 
 IndoorScene settled(IndoorScene scene) {

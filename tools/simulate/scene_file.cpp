@@ -1,7 +1,5 @@
 /// Scenes as YAML: a flat map of options.
 
-#include <yaml-cpp/yaml.h>
-
 #include "plumb/data/error.hpp"
 #include "simulate/names.hpp"
 #include "simulate/route.hpp"
@@ -19,11 +17,11 @@ std::string beside(const fs::path& scene, const std::string& named) {
 }
 
 void set_drift_from(Scene& scene, const fs::path& file, const SceneEntry& entry) {
-  if (!entry.value.IsSequence() || entry.value.size() != 2)
+  if (entry.list.size() != 2)
     throw Error(entry.value_place +
                 ": 'drift_from' takes two files; write [odometry.tum, truth.tum]");
-  scene.drift_odometry = beside(file, scalar_of(entry, entry.value[0]));
-  scene.drift_truth = beside(file, scalar_of(entry, entry.value[1]));
+  scene.drift_odometry = beside(file, scalar_of(entry, entry.list[0]));
+  scene.drift_truth = beside(file, scalar_of(entry, entry.list[1]));
 }
 
 }  // namespace
@@ -49,17 +47,9 @@ Scene read_scene(const fs::path& file) {
 }
 
 std::string scene_text(const Scene& scene) {
-  YAML::Emitter out;
-  out << YAML::BeginMap;
-  for (const Option& option : options())
-    if (const auto text = option_text(scene, option))
-      out << YAML::Key << option.key << YAML::Value << *text;
-  if (!scene.drift_odometry.empty())
-    out << YAML::Key << "drift_from" << YAML::Value << YAML::Flow << YAML::BeginSeq
-        << scene.drift_odometry << scene.drift_truth << YAML::EndSeq;
-  out << YAML::EndMap;
-  return std::string(scene_mark) + ", with all it was made from; give it back to repeat it.\n" +
-         out.c_str() + "\n";
+  std::vector<std::string> drift_from;
+  if (!scene.drift_odometry.empty()) drift_from = {scene.drift_odometry, scene.drift_truth};
+  return text_of_scene(values_of(scene, options()), drift_from);
 }
 
 }  // namespace plumb::simulate

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/SparseCholesky>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>

@@ -24,13 +24,7 @@ class PairCost final : public ceres::SizedCostFunction<13, 7, 7> {
   const double* root_weight_;
 };
 
-/// How a relative pose Z = T_i_j with information Omega is compared with T_i^-1 T_j.
-enum class ConstraintError {
-  g2o,  ///< e'Omega e with e = [t; q.vec] of Z^-1 T_i^-1 T_j, q.w >= 0. Source: g2o, EDGE_SE3:QUAT
-  chordal  ///< tau |t_j - t_i - R_i t_Z|^2 + kappa |R_j - R_i R_Z|_F^2. Source: [Rosen2019]
-           ///< (SE-Sync)
-};
-
+/// ConstraintError::g2o (constraint_error.hpp).
 class G2oCost final : public ceres::SizedCostFunction<6, 7, 7> {
  public:
   G2oCost(const RelativePose& constraint, const double* root_weight);
@@ -42,6 +36,7 @@ class G2oCost final : public ceres::SizedCostFunction<6, 7, 7> {
   const double* root_weight_;
 };
 
+/// ConstraintError::chordal.
 class ChordalCost final : public ceres::SizedCostFunction<12, 7, 7> {
  public:
   ChordalCost(const RelativePose& constraint, bool planar, const double* root_weight);

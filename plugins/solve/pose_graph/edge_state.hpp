@@ -2,7 +2,9 @@
 /// One edge while the graph is solved: its pairs, their weights, and the form that sums them.
 
 #include <algorithm>
+#include <cstdint>
 
+#include "plumb/slam/geometry/pair_moments.hpp"
 #include "pose_graph.hpp"
 
 namespace plumb::solve_pose_graph {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "costs.hpp"
 #include "edge_state.hpp"
 #include "marginals.hpp"
 #include "parts.hpp"

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "costs.hpp"
+#include "constraint_error.hpp"
 #include "loss.hpp"
+#include "plumb/slam/graph.hpp"
 #include "plumb/slam/values.hpp"
 #include "shared/parallel/loop.hpp"
 

@@ -111,7 +111,7 @@ def code_of(file):
     """A C++ file without comments and without the examples that --help shows."""
     text = re.sub(r"//[^\n]*", "", re.sub(r"/\*.*?\*/", "", file.read_text(), flags=re.S))
     text = re.sub(r"footer\(.*?\);", "", text, flags=re.S)
-    return re.sub(r"add_option\(.*?\)\s*(->|;)", "", text, flags=re.S)
+    return re.sub(r"add_option\(.*?\)\s*;", "", text, flags=re.S)
 
 
 def code_files():
