@@ -119,6 +119,22 @@ def files_of(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
+# Copies poses and nothing else: runs at once.
+POSES = """plumb: 1
+name: poses
+parameters:
+  input: {type: path}
+steps:
+  sequence: {use: source.sequence,  with: {path: $input}}
+  copy:     {use: write.trajectory, from: sequence.trajectory}
+"""
+
+
+def poses_pipeline(folder):
+    (folder / "poses.yaml").write_text(POSES)
+    return folder / "poses.yaml"
+
+
 def step_names():
     return [line.split()[0] for line in plumb("list").out.splitlines()]
 

@@ -1,4 +1,4 @@
-"""The log of the layer (watch.hpp), and the ways in which each call can fail."""
+"""The log of the layer (journal.hpp), and the ways in which each call can fail."""
 from dataclasses import dataclass
 
 ROOM = {"write", "mkdir", "rename", "link", "symlink"}  # and open with O_CREAT

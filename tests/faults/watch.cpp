@@ -1,12 +1,7 @@
 #include "watch.hpp"
 
-#include <dlfcn.h>
-#include <execinfo.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,16 +9,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
+
+#include "journal.hpp"
+#include "past.hpp"
 
 namespace faults {
 namespace {
-
-// The layer's own calls go past itself.
-int open_past(const char* path, int flags) {
-  return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, 0600));
-}
 
 struct Error {
   const char* name;
@@ -34,33 +26,20 @@ constexpr Error errors[] = {{"EACCES", EACCES}, {"EDQUOT", EDQUOT}, {"EINTR", EI
                             {"ENOLCK", ENOLCK}, {"ENOMEM", ENOMEM}, {"ENOSPC", ENOSPC},
                             {"EPERM", EPERM}};
 
-[[noreturn]] void give_up(const char* why) {
-  static_cast<void>(!syscall(SYS_write, 2, why, std::strlen(why)));
-  _exit(99);
-}
-
 struct Settings {
   std::vector<std::string> folders;
   std::atomic<std::uint64_t> own_count = 0;
   std::atomic<std::uint64_t>* count = &own_count;
-  int log = -1;
   std::uint64_t at = 0;
   int error = 0;
   bool is_short = false, kills = false, lasts = false;
-  std::string module;  ///< this library
 
   Settings() {
     if (const char* list = std::getenv("FAULTS_FOLDERS")) split(list);
     if (const char* file = std::getenv("FAULTS_COUNT")) share(file);
-    if (const char* file = std::getenv("FAULTS_LOG"))
-      if (log = open_past(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC); log < 0)
-        give_up("faults: FAULTS_LOG cannot be written\n");
     if (const char* number = std::getenv("FAULTS_AT")) at = std::strtoull(number, nullptr, 10);
     if (const char* how = std::getenv("FAULTS_HOW")) read_how(how);
-    Dl_info here{};
-    if (dladdr(reinterpret_cast<void*>(&give_up), &here) != 0) module = here.dli_fname;
-    void* none[1];
-    backtrace(none, 1);  // loads what it needs before anything is counted
+    open_log();
   }
 
   void split(std::string_view list) {
@@ -98,36 +77,6 @@ Settings& settings() {
 }
 
 std::array<std::atomic<bool>, 4096> watched_fds;
-
-void append(std::string& line, const std::string& text) { line += text, line += '\t'; }
-void append(std::string& line, std::int64_t number) { append(line, std::to_string(number)); }
-
-std::string hexadecimal(std::string_view bytes) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const unsigned char byte : bytes) text += digits[byte >> 4], text += digits[byte & 15];
-  return text;
-}
-
-/// MODULE+OFFSET of all who are in the midst of a call, without this library.
-std::string callers() {
-  std::array<void*, 40> frames;
-  const int n = backtrace(frames.data(), static_cast<int>(frames.size()));
-  std::string text;
-  for (int k = 0; k < n; ++k) {
-    Dl_info at{};
-    if (dladdr(frames[static_cast<std::size_t>(k)], &at) == 0 || settings().module == at.dli_fname)
-      continue;
-    char part[300];
-    const char* name = std::strrchr(at.dli_fname, '/');
-    std::snprintf(part, sizeof part, "%s+%zx ", name ? name + 1 : at.dli_fname,
-                  static_cast<std::size_t>(static_cast<char*>(frames[static_cast<std::size_t>(k)]) -
-                                           static_cast<char*>(at.dli_fbase)));
-    text += part;
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -178,27 +127,6 @@ Fate fate_of(const Call& call) {
   fate.is_short = now.is_short;
   fate.error = now.error;
   return fate;
-}
-
-void log(const Call& call, const Fate& fate, long result, int error) {
-  const Settings& now = settings();
-  if (now.log < 0) return;
-  std::string line;
-  append(line, static_cast<std::int64_t>(fate.number));
-  append(line, getpid());
-  append(line, std::string(call.name));
-  append(line, result);
-  append(line, result < 0 ? error : 0);
-  append(line, fate.fails() || fate.is_short);
-  append(line, call.fd);
-  append(line, call.offset);
-  append(line, call.flags);
-  append(line, call.path);
-  append(line, call.second);
-  append(line,
-         hexadecimal(call.bytes.substr(0, result < 0 ? 0 : static_cast<std::size_t>(result))));
-  line += callers() + "\n";
-  static_cast<void>(!syscall(SYS_write, now.log, line.data(), line.size()));
 }
 
 }  // namespace faults

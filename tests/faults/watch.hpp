@@ -1,18 +1,13 @@
 #pragma once
 /// Which calls are counted, and which of them fails: said by the driver in the environment.
 ///
-///     FAULTS_FOLDERS  folders, with ':' between them; calls on what lies in them count
-///     FAULTS_COUNT    a file of 8 bytes, the number of calls so far; processes that inherit it
-///     count together FAULTS_LOG      a file to which a line is added for each call FAULTS_AT the
-///     number of the call that fails, from 1; none fails without it FAULTS_HOW      the name of an
-///     error (ENOSPC), `short` (half of the bytes), `kill` (SIGKILL to all of the process group),
-///     or an error with
-///                     `...` behind it: that call and all that follow; of ENOSPC... only those that
-///                     need room
-///
-/// A line of the log: number, process, call, result, errno, whether it was made to fail (1), file
-/// descriptor, offset, flags, path, second path, the bytes that were written in hexadecimal digits,
-/// and who called: MODULE+OFFSET from the inside out. Tabs stand between them.
+/// - FAULTS_FOLDERS: folders, with ':' between them; calls on what lies in them count
+/// - FAULTS_COUNT: a file of 8 bytes, the number of calls so far; processes that inherit it count
+///   together
+/// - FAULTS_AT: the number of the call that fails, from 1; none fails without it
+/// - FAULTS_HOW: the name of an error (ENOSPC), `short` (half of the bytes), `kill` (SIGKILL to all
+///   of the process group), or an error with `...` behind it: that call and all that follow; of
+///   ENOSPC... only those that need room
 
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +52,5 @@ std::string path_of(int fd);
 
 /// Counts a call and says what is to become of it; does not return from one that kills.
 Fate fate_of(const Call& call);
-/// Adds a call to the log, with what it gave and the errno of that.
-void log(const Call& call, const Fate& fate, long result, int error);
 
 }  // namespace faults

@@ -117,7 +117,11 @@ void prune_store(const Options& options) {
             << results(pruned.results);
   if (pruned.unfinished) std::cout << " and " << pruned.unfinished << " that runs left unfinished";
   std::cout << "; " << results(pruned.left) << ", " << text_of_bytes(pruned.left_bytes)
-            << " are left\n";
+            << " are left";
+  if (pruned.held)
+    std::cout << ", " << pruned.held << " of them because a run in progress holds "
+              << (pruned.held == 1 ? "it" : "them");
+  std::cout << "\n";
 }
 
 }  // namespace
@@ -139,7 +143,9 @@ void add_cache(Command& program) {
   less.add_option("--older", options->older,
                   "Removes what was not used for this long: 12h, 30d, 8w");
   less.add_option("--size", options->size, "Removes until no more than this is left: 500MB, 10GiB");
-  less.footer("Example: plumb cache prune --older 30d --size 10GiB");
+  less.footer(
+      "What a run in progress made or used stays.\n"
+      "Example: plumb cache prune --older 30d --size 10GiB");
   for (Command sub : {check, less})
     sub.fallthrough();  // --cache-dir and --trust-cache behind the sub-command are the command's
                         // own

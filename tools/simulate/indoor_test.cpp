@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "plumb/slam/io/trajectory_file.hpp"
@@ -25,14 +24,6 @@ IndoorScene small(const std::string& path) {
   return scene;
 }
 
-std::map<std::string, std::string> files(const fs::path& folder) {
-  std::map<std::string, std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      found[fs::relative(entry.path(), folder).string()] = contents(entry.path());
-  return found;
-}
-
 std::vector<std::string> words(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<std::string>(in), {}};
@@ -49,7 +40,7 @@ std::vector<std::vector<std::string>> lines_of(const fs::path& log, const std::s
 
 TEST(Indoor, TheSameSeedGivesTheSameBytesOnOneAndOnTwoThreads) {
   for (const std::string& name : indoor_names()) {
-    const TemporaryFolder one("indoor-one"), two("indoor-two"), other("indoor-other");
+    const TestFolder one, two, other;
     IndoorScene scene = small(name);
     simulate(scene, one.path(), 1);
     simulate(scene, two.path(), 2);
@@ -63,7 +54,7 @@ TEST(Indoor, TheSameSeedGivesTheSameBytesOnOneAndOnTwoThreads) {
 }
 
 TEST(Indoor, TheSceneThatItLeavesRepeatsIt) {
-  const TemporaryFolder first("indoor-first"), again("indoor-again");
+  const TestFolder first, again;
   IndoorScene scene = small("lookalike");
   scene.kidnap = 2;
   scene.drop_in_turns = 1.0 / 3;
@@ -75,7 +66,7 @@ TEST(Indoor, TheSceneThatItLeavesRepeatsIt) {
 }
 
 TEST(Indoor, EveryScanOfTheLogHasItsTruthAndItsOdometryUnderItsStamp) {
-  const TemporaryFolder folder("indoor-log");
+  const TestFolder folder;
   IndoorScene scene = small("rooms");
   scene.kidnap = 1;
   const IndoorSummary made = simulate(scene, folder.path());
@@ -103,7 +94,7 @@ TEST(Indoor, EveryScanOfTheLogHasItsTruthAndItsOdometryUnderItsStamp) {
 }
 
 TEST(Indoor, ScansUnderTheTruthLieOnTheWallsOfThePlan) {
-  const TemporaryFolder folder("indoor-plan");
+  const TestFolder folder;
   IndoorScene scene = small("corridor");
   simulate(scene, folder.path());
   std::vector<Wall> walls;
@@ -134,13 +125,13 @@ TEST(Indoor, ScansUnderTheTruthLieOnTheWallsOfThePlan) {
 }
 
 TEST(Indoor, ReplacesAStreetAndAStreetReplacesIt) {
-  const TemporaryFolder folder("indoor-place");
+  const TestFolder folder;
   simulate(small_scene("city_loop", 3, 10), folder.path());
   simulate(small("rooms"), folder.path());
   EXPECT_FALSE(fs::exists(folder.path() / "frames"));
   simulate(small_scene("city_loop", 3, 10), folder.path());
   EXPECT_FALSE(fs::exists(folder.path() / "log.clf"));
-  write(folder.path() / "notes.txt", "mine");
+  folder.write("notes.txt", "mine");
   EXPECT_THAT(refusal([&] { simulate(small("rooms"), folder.path()); }),
               HasSubstr("name another folder"));
 }
@@ -153,11 +144,11 @@ TEST(Indoor, TheDriftThatIsNotAskedSuitsTheBuilding) {
 
 TEST(IndoorScene, SaysWhatIsWrongAndWhatWasMeant) {
   const auto refused = [](const std::string& text) {
-    const TemporaryFolder folder("indoor-scene");
-    write(folder.path() / "scene.yaml", text);
+    const TestFolder folder;
+    folder.write("scene.yaml", text);
     return refusal([&] { settled(read_indoor_scene(folder.path() / "scene.yaml")); });
   };
-  EXPECT_EQ(refused("path: rooms\nnoise: 2 cm\nturn_rate: 5 deg/s\n"), "");
+  EXPECT_EQ(refused("path: rooms\nnoise: 2 cm\nturn_rate: 5 deg/s\n"), "(nothing was refused)");
   EXPECT_THAT(refused("path: corridor\nlines: 5\n"), HasSubstr("scene.yaml:2:1: unknown option"));
   EXPECT_THAT(refused("path: corridor\nspeed: 1 m\n"), HasSubstr("ends in 'm'"));
   EXPECT_THAT(refused("path: corridor\nrate: 5\n"), HasSubstr("lacks its unit"));
@@ -169,7 +160,7 @@ TEST(IndoorScene, SaysWhatIsWrongAndWhatWasMeant) {
 }
 
 TEST(IndoorScene, LeavesNothingBehindWhenItRefuses) {
-  const TemporaryFolder folder("indoor-refuses");
+  const TestFolder folder;
   IndoorScene scene = small("rooms");
   scene.kidnap = 90;
   EXPECT_THAT(refusal([&] { simulate(scene, folder.path() / "log"); }), HasSubstr("too short"));

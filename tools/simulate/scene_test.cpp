@@ -10,8 +10,8 @@ namespace {
 using testing::HasSubstr;
 
 Scene read(const std::string& text) {
-  const TemporaryFolder folder("scene");
-  write(folder.path() / "scene.yaml", text);
+  const TestFolder folder;
+  folder.write("scene.yaml", text);
   return read_scene(folder.path() / "scene.yaml");
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "plumb/slam/geometry/search_tree.hpp"
 #include "plumb/slam/io/cloud_file.hpp"
@@ -17,15 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-/// All files below a folder, with what they hold.
-std::map<std::string, std::string> files(const fs::path& folder) {
-  std::map<std::string, std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      found[fs::relative(entry.path(), folder).string()] = contents(entry.path());
-  return found;
-}
 
 TEST(Simulate, PointsUnderTheTruthLieOnTheWorldWithinTheNoise) {
   const Stage stage = set_up(small_scene("blocks", 40, 300));
@@ -59,7 +49,7 @@ TEST(Simulate, PointsUnderTheTruthLieOnTheWorldWithinTheNoise) {
 }
 
 TEST(Simulate, TheSameSeedGivesTheSameBytesOnOneAndOnTwoThreads) {
-  const TemporaryFolder one("one"), two("two"), other("other");
+  const TestFolder one, two, other;
   Scene scene = small_scene("city_loop", 12, 30);
   simulate(scene, one.path(), 1);
   simulate(scene, two.path(), 2);
@@ -73,14 +63,14 @@ TEST(Simulate, TheSameSeedGivesTheSameBytesOnOneAndOnTwoThreads) {
 }
 
 TEST(Simulate, TheSceneThatItLeavesRepeatsIt) {
-  const TemporaryFolder first("first"), again("again");
+  const TestFolder first, again;
   simulate(small_scene("out_and_back", 5, 33.3), first.path());
   simulate(read_scene(first.path() / "scene.yaml"), again.path());
   EXPECT_EQ(files(first.path()), files(again.path()));
 }
 
 TEST(Simulate, WritesWhatTheReadersRead) {
-  const TemporaryFolder folder("read");
+  const TestFolder folder;
   const Scene scene = small_scene("figure_eight", 6, 40);
   const Summary made = simulate(scene, folder.path());
   const Stage stage = set_up(scene);
@@ -134,10 +124,10 @@ TEST(Simulate, ARevisitedStreetLooksTheSameFromBothDirections) {
 }
 
 TEST(Simulate, FollowsAFileOfPosesFarFromZero) {
-  const TemporaryFolder folder("poses");
+  const TestFolder folder;
   Trajectory path = set_up(small_scene("city_loop", 20, 40)).truth;
   for (Pose& pose : path.T_world_frame) pose.translation += Eigen::Vector3d(400000, 5000000, 120);
-  write(folder.path() / "path.tum", tum_text(path));
+  folder.write("path.tum", tum_text(path));
   Scene scene = small_scene("", 10, 0);
   scene.length.reset();
   scene.path = (folder.path() / "path.tum").string();
@@ -171,12 +161,12 @@ double share_alike(const Scene& scene, std::size_t a, std::size_t b) {
 
 TEST(Simulate, StreetsThatAreAlikeRepeatThemselves) {
   // A straight way of 240 m, a pose a metre; frames 100 and 160 lie one block apart.
-  const TemporaryFolder folder("alike");
+  const TestFolder folder;
   std::string poses;
   for (int k = 0; k < 240; ++k)
     poses += std::to_string(0.1 * k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
   Scene scene;
-  write(folder.path() / "way.tum", poses);
+  folder.write("way.tum", poses);
   scene.path = (folder.path() / "way.tum").string();
   scene.lines = 16, scene.columns = 256, scene.range = 25, scene.noise = 0, scene.drift = 0;
   const double different = share_alike(scene, 100, 160);
@@ -189,30 +179,31 @@ TEST(Simulate, StreetsThatAreAlikeRepeatThemselves) {
 }
 
 TEST(Simulate, ReplacesItsOwnFolderAndNoOther) {
-  const TemporaryFolder folder("place");
+  const TestFolder folder;
   const Scene scene = small_scene("city_loop", 3, 10);
   const fs::path place = folder.path() / "deep" / "sequence";
   simulate(scene, place);
   simulate(scene, place.string() + "/");
   EXPECT_EQ(files(place).size(), 6u);
-  write(place / "notes.txt", "mine");
+  folder.write("deep/sequence/notes.txt", "mine");
   EXPECT_THAT(refusal([&] { simulate(scene, place); }), HasSubstr("name another folder"));
   EXPECT_EQ(contents(place / "notes.txt"), "mine");
-  write(folder.path() / "file", "mine");
+  folder.write("file", "mine");
   EXPECT_THAT(refusal([&] { simulate(scene, folder.path() / "file"); }), HasSubstr("is a file"));
 }
 
 TEST(Simulate, LeavesNothingBehindWhenItRefuses) {
-  const TemporaryFolder folder("refuses");
+  const TestFolder folder;
   Scene scene = small_scene("city_loop", 3, 10);
   scene.path = "nowhere.tum";
   scene.length.reset();
-  EXPECT_NE(refusal([&] { simulate(scene, folder.path() / "sequence"); }), "");
+  EXPECT_THAT(refusal([&] { simulate(scene, folder.path() / "sequence"); }),
+              HasSubstr("nowhere.tum"));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(Simulate, ReportsEveryFrame) {
-  const TemporaryFolder folder("progress");
+  const TestFolder folder;
   std::vector<std::size_t> told;
   simulate(small_scene("city_loop", 7, 10), folder.path(), 2,
            [&](std::size_t done, std::size_t) { told.push_back(done); });

@@ -1,33 +1,19 @@
 #pragma once
 /// What the simulator's tests share.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 
-#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "simulate/simulate.hpp"
 
 namespace plumb::simulate {
 
-/// A folder that goes when the test ends.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("plumb-simulate-" + name + "-" + std::to_string(::getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using io::refusal;
+using io::TestFolder;
 
 inline std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -36,8 +22,13 @@ inline std::string contents(const std::filesystem::path& file) {
   return text.str();
 }
 
-inline void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
+/// All files below a folder, with what they hold.
+inline std::map<std::string, std::string> files(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      found[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path());
+  return found;
 }
 
 /// A quick scene: few rays, few frames.
@@ -49,17 +40,6 @@ inline Scene small_scene(const std::string& path, std::int64_t frames, double le
   scene.lines = 16;
   scene.columns = 128;
   return scene;
-}
-
-/// The sentence of the Error that `act` throws, "" if it throws none.
-template <class Act>
-std::string refusal(Act act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
 }
 
 }  // namespace plumb::simulate

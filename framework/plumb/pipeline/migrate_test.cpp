@@ -28,12 +28,7 @@ class Migrate : public testing::Test {
     return first.text;
   }
   std::string told(const std::string& text, const std::string& name = "a.yaml") const {
-    try {
-      migrate(name, text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return io::refusal([&] { migrate(name, text); });
   }
   test::Folder folder_;
 };

@@ -105,6 +105,26 @@ TEST(Mistakes, InReferencesToParameters) {
   EXPECT_THAT(told_with("type: length", "type: lenght"), HasSubstr("Did you mean 'length'?"));
 }
 
+TEST(Mistakes, InAParameterThatManyStepsUseAreToldOnce) {
+  const std::string text = with("  fpfh:     {use: describe.fpfh, from: segments}",
+                                "  thinner:  {use: filter.voxel_grid, from: segments, with: {leaf: "
+                                "$voxel}}\n"
+                                "  thinnest: {use: filter.voxel_grid, from: thinner, with: {leaf: "
+                                "$voxel}}\n"
+                                "  fpfh: {use: describe.fpfh, from: thinnest, with: {radius: "
+                                "$voxel}}");
+  const std::string all = told(text, {"input=data", "voxel=-3m"});
+  EXPECT_THAT(all, HasSubstr("a.yaml:12:65: step 'segments' (filter.voxel_grid): parameter 'leaf': "
+                             "'$voxel' does not serve: its value -3 m does not fit, expected "
+                             "length, 0.01 m to 100 m; nor does it in 2 more places.\n"));
+  EXPECT_THAT(all, HasSubstr("  Its value is from --set voxel=-3m.\n"));
+  EXPECT_THAT(all, testing::Not(HasSubstr("thinner")));
+  // Another range is another sentence.
+  EXPECT_THAT(all, HasSubstr("step 'fpfh' (describe.fpfh): parameter 'radius': '$voxel' does not "
+                             "serve: its value -3 m does not fit, expected length, 0.1 m to 100 "
+                             "m.\n"));
+}
+
 TEST(Mistakes, InYaml) {
   EXPECT_THAT(told("plumb: 1\nsteps: {a: [}\n"), HasSubstr("a.yaml:2:13: this is not YAML"));
   EXPECT_THAT(told_with("frames: 30", "frames: 30, frames: 40"),

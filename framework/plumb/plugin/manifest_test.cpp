@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/data/toy_testing.hpp"
 #include "plumb/plugin/registry.hpp"
 
@@ -54,12 +54,7 @@ json& named(json& list, const std::string& name) {
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    read_manifest(text, "small.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return io::refusal([&] { read_manifest(text, "small.json"); });
 }
 
 TEST(Manifest, IsReadAsItWasWritten) {
@@ -100,7 +95,8 @@ TEST(Manifest, TakesNoOtherNumberForAWholeOne) {
     EXPECT_THAT(refusal_of(with("\"version\": 7", std::string("\"version\": ") + version)), told);
   for (const char* standard : {"5.5", "-1e300", "9223372036854775808", "\"5\""})
     EXPECT_THAT(refusal_of(with("\"default\": 5", std::string("\"default\": ") + standard)), told);
-  EXPECT_EQ(refusal_of(with("\"default\": 5", "\"default\": -9223372036854775808")), "");
+  EXPECT_EQ(refusal_of(with("\"default\": 5", "\"default\": -9223372036854775808")),
+            "(nothing was refused)");
 }
 
 TEST(Manifest, DefinesWhatItsPortsAreOf) {
@@ -224,7 +220,7 @@ TEST(Manifest, ThatIsRefusedLeavesNothingBehind) {
     EXPECT_EQ(find_kind("test.lot"), nullptr) << told;
     EXPECT_EQ(find_type("test.Lot"), nullptr) << told;
   }
-  EXPECT_EQ(refusal_of(with_lots([](json&) {})), "");
+  EXPECT_EQ(refusal_of(with_lots([](json&) {})), "(nothing was refused)");
   EXPECT_EQ(find_type("test.Lot")->kind, find_kind("test.lot"));
 }
 
@@ -238,9 +234,9 @@ TEST(Manifest, MayDefineWhatAnotherDefines) {
       }
     });
   };
-  EXPECT_EQ(refusal_of(defining("8/8", "test.First")), "");
+  EXPECT_EQ(refusal_of(defining("8/8", "test.First")), "(nothing was refused)");
   const Type* shared = find_type("test.Shared");
-  EXPECT_EQ(refusal_of(defining("8/8", "test.Second")), "");
+  EXPECT_EQ(refusal_of(defining("8/8", "test.Second")), "(nothing was refused)");
   EXPECT_EQ(find_type("test.Shared"), shared);
   EXPECT_NE(find_type("test.Second"), nullptr);
   EXPECT_THAT(refusal_of(defining("4/4", "test.Third")),

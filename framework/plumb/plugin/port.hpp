@@ -66,6 +66,12 @@ class Each {
   explicit operator bool() const { return items_ != nullptr; }
   std::size_t size() const { return items_->size(); }
   One<T> open(std::size_t k) const { return One<T>(items_->open(k).template as<T>()); }
+  /// All of them, copied: for small values.
+  std::vector<T> all(Context& context) const {
+    std::vector<T> values(size());
+    context.parallel(values.size(), [&](std::size_t k) { values[k] = *open(k); });
+    return values;
+  }
   /// Of values of a kind whose items are listed: the list. Value k belongs to its item k.
   AnyValue list() const { return items_->list(); }
 

@@ -2,8 +2,10 @@
 /// For tests of clouds and of what is made of them.
 
 #include <cmath>
+#include <utility>
 
-#include "plumb/slam/cloud.hpp"
+#include "plumb/data/random.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb {
 
@@ -21,6 +23,22 @@ inline Cloud full_cloud(std::size_t count) {
     cloud.nz.push_back(0);
   }
   return cloud;
+}
+
+/// A point of the cube round the origin whose edges are twice `half` [m].
+inline Eigen::Vector3f in_cube(Random& random, float half) {
+  return {half * static_cast<float>(2 * random.uniform() - 1),
+          half * static_cast<float>(2 * random.uniform() - 1),
+          half * static_cast<float>(2 * random.uniform() - 1)};
+}
+
+/// A segment of one frame, which saw the cloud.
+inline Segment segment_of(Cloud cloud) {
+  Segment segment;
+  segment.range.end = 1;
+  segment.range.T_segment_frame.resize(1);
+  std::vector<std::uint16_t> frames(cloud.size(), 0);
+  return segment.with(std::move(cloud), std::move(frames));
 }
 
 }  // namespace plumb

@@ -1,5 +1,8 @@
 #include "plumb/slam/graph.hpp"
 
+#include "plumb/data/counted.hpp"
+#include "plumb/data/error.hpp"
+
 namespace plumb {
 
 const char* name_of(EdgeKind kind) {
@@ -32,6 +35,12 @@ Matches select(const Matches& matches, const std::vector<std::uint32_t>& indices
   result.found = matches.found;
   result.to_plane = matches.to_plane;
   return result;
+}
+
+void require_pose_each(const Poses& poses, std::size_t segments) {
+  if (segments != poses.size())
+    throw Error("got " + counted(segments, "segments") + " and " + counted(poses.size(), "poses") +
+                ": wire poses of the same segments");
 }
 
 }  // namespace plumb

@@ -60,6 +60,9 @@ struct Poses {
   }
 };
 
+/// Throws Error unless the poses are those of so many segments.
+void require_pose_each(const Poses& poses, std::size_t segments);
+
 /// A measured relative pose between two vertices with its information matrix (translation first,
 /// then rotation).
 struct RelativePose {

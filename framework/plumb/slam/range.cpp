@@ -21,7 +21,7 @@ FrameRange range_of(const Trajectory& trajectory, std::size_t first, std::size_t
   FrameRange range;
   range.first = static_cast<std::uint32_t>(first);
   range.end = static_cast<std::uint32_t>(end);
-  range.T_world_segment = trajectory.T_world_frame[first + (end - first) / 2];
+  range.T_world_segment = trajectory.T_world_frame[range.middle()];
   const Pose T_segment_world = range.T_world_segment.inverse();
   range.T_segment_frame.reserve(end - first);
   for (std::size_t k = first; k < end; ++k)
@@ -43,6 +43,19 @@ Poses poses_of(const std::vector<FrameRange>& ranges) {
   Poses poses;
   poses.T_world_segment.reserve(ranges.size());
   for (const FrameRange& range : ranges) poses.T_world_segment.push_back(range.T_world_segment);
+  return poses;
+}
+
+Poses poses_of(const std::vector<FrameRange>& ranges, const Trajectory& trajectory) {
+  Poses poses;
+  poses.T_world_segment.reserve(ranges.size());
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (ranges[k].end > trajectory.size())
+      throw Error("segment " + std::to_string(k) + " has frames up to " +
+                  std::to_string(ranges[k].end) + ", the trajectory only " +
+                  std::to_string(trajectory.size()) + ": wire ranges of the same frames");
+    poses.T_world_segment.push_back(trajectory.T_world_frame[ranges[k].middle()]);
+  }
   return poses;
 }
 

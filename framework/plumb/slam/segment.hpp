@@ -26,6 +26,7 @@ struct FrameRange {
   std::vector<Pose> T_segment_frame;  ///< of each of its frames
 
   std::size_t size() const { return end - first; }
+  std::size_t middle() const { return first + size() / 2; }  ///< the frame whose coordinates it has
   /// Where the sensor stood at each frame, in segment coordinates [m].
   std::vector<Eigen::Vector3f> origins() const;
 };

@@ -19,6 +19,9 @@ struct Trajectory {
 /// Travelled distance [m] from the first frame to each frame.
 std::vector<double> travelled(const Trajectory& trajectory);
 
+/// Throws Error unless the trajectory is one of so many frames.
+void require_pose_each(const Trajectory& trajectory, std::size_t frames);
+
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, Trajectory>
 void fields(Archive& a, T& t) { a(t.stamps, t.T_world_frame); }

@@ -66,6 +66,8 @@ bool Holds::has(const Hash128& key) const {
   return keys_.contains(key);
 }
 
+HeldElsewhere Holds::elsewhere() const { return HeldElsewhere(folder_, file()); }
+
 fs::path Holds::file() const {
   const std::lock_guard lock(mutex_);
   return file_;

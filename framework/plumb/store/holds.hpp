@@ -14,6 +14,7 @@
 namespace plumb {
 
 using KeySet = std::unordered_set<Hash128, Hash128Hash>;
+class HeldElsewhere;
 
 /// Those of this run. Other processes find them in a file, DIR/runs/TOKEN, 16 bytes a key, as soon
 /// as they are added. It is locked (flock) for as long as its run lives: one that nobody locks is
@@ -29,6 +30,8 @@ class Holds {
   /// Asked before a result is opened or written.
   void add(std::span<const Hash128> keys);
   bool has(const Hash128& key) const;
+  /// Those of all other runs.
+  HeldElsewhere elsewhere() const;
   std::filesystem::path file() const;
 
  private:

@@ -34,7 +34,7 @@ Trimmed trim(Store& store, std::uint64_t bound, std::uint64_t most) {
     trimmed.left_bytes += row.bytes;
     if (store.holds()->has(row.key)) trimmed.own_bytes += row.bytes;
   }
-  HeldElsewhere elsewhere(store.folder() / "runs", store.holds()->file());
+  HeldElsewhere elsewhere = store.holds()->elsewhere();
   for (const IndexRow& row : rows) {
     if (trimmed.left_bytes <= bound) break;
     if (store.holds()->has(row.key) || elsewhere.has(row.key)) continue;

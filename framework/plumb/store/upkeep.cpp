@@ -4,6 +4,7 @@
 
 #include "plumb/data/error.hpp"
 #include "plumb/store/blob_file.hpp"
+#include "plumb/store/holds.hpp"
 #include "plumb/store/index.hpp"
 
 namespace plumb {
@@ -69,10 +70,15 @@ Pruned prune(Store& store, const PruneLimits& limits) {
   require_index(store);
   Pruned pruned;
   for (const IndexRow& row : rows) ++pruned.left, pruned.left_bytes += row.bytes;
+  HeldElsewhere elsewhere = store.holds()->elsewhere();
   for (const IndexRow& row : rows) {
     const bool old = limits.older && row.used < now - limits.older->count(),
                over = limits.bytes && pruned.left_bytes > *limits.bytes;
     if (!old && !over) break;  // all that follow were used later
+    if (elsewhere.has(row.key)) {
+      ++pruned.held;
+      continue;
+    }
     --pruned.left, pruned.left_bytes -= row.bytes;
     if (!store.remove(row.key)) continue;  // another prune was faster
     ++pruned.results, pruned.bytes += row.bytes;

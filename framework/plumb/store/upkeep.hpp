@@ -31,14 +31,15 @@ struct PruneLimits {
 
 /// What prune removed, and what is left.
 struct Pruned {
-  std::size_t results = 0, left = 0,
-              unfinished = 0;  ///< unfinished: files of runs that were killed while they wrote them
+  std::size_t results = 0, left = 0;
+  std::size_t held = 0;        ///< of those that are left: what only a run in progress keeps there
+  std::size_t unfinished = 0;  ///< files of runs that were killed while they wrote them
   std::uint64_t bytes = 0, left_bytes = 0, unfinished_bytes = 0;
 };
 
-/// Removes results, least recently used first, until the limits hold; and what was begun in DIR/new
-/// more than a day ago. Throws Error when the index, which knows what was used when, cannot be
-/// read.
+/// Removes results, least recently used first, until the limits hold, but none that another run in
+/// progress made or used (holds.hpp); and what was begun in DIR/new more than a day ago. Throws
+/// Error when the index, which knows what was used when, cannot be read.
 Pruned prune(Store& store, const PruneLimits& limits);
 
 }  // namespace plumb

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "plumb/data/io/file_testing.hpp"
+#include "plumb/store/blob_file.hpp"
 #include "plumb/store/store_testing.hpp"
 
 namespace plumb {
@@ -87,12 +88,60 @@ TEST(Upkeep, WhatAnotherRunWritesIsLeftToIt) {
   for (const char* name : unfinished) EXPECT_TRUE(fs::exists(first.folder() / name)) << name;
 }
 
+TEST(Upkeep, PruneLeavesWhatARunInProgressMadeOrUsed) {
+  const io::TestFolder folder;
+  const fs::path place = folder.path() / "store";
+  {
+    Store earlier(place);
+    fill(earlier, 4);
+  }
+  Store pruning(place);
+  {
+    Store run(place);
+    ASSERT_TRUE(run.find({1, 1}));
+    ASSERT_TRUE(run.put({20, 1}, small_result(20), "a.step"));
+    run.sync();
+    const Pruned by_size = prune(pruning, {{}, 0});
+    EXPECT_EQ(by_size.results, 3u);
+    EXPECT_EQ(by_size.held, 2u);
+    EXPECT_EQ(by_size.left, 2u);
+    EXPECT_EQ(by_size.left_bytes, pruning.bytes_of({1, 1}) + pruning.bytes_of({20, 1}));
+    EXPECT_TRUE(run.find({1, 1}));
+    EXPECT_TRUE(run.find({20, 1}));
+    EXPECT_EQ(prune(pruning, {std::chrono::milliseconds(-1000), {}}).held, 2u) << "all are older";
+    EXPECT_EQ(prune(pruning, {std::chrono::hours(1), {}}).held, 0u) << "they may stay anyway";
+  }
+  const Pruned later = prune(pruning, {{}, 0});
+  EXPECT_EQ(later.results, 2u);
+  EXPECT_EQ(later.held, 0u);
+  EXPECT_EQ(later.left, 0u);
+}
+
+TEST(Upkeep, PruneOfASizeRemovesWhatWasUsedLaterInsteadOfWhatIsHeld) {
+  const io::TestFolder folder;
+  const fs::path place = folder.path() / "store";
+  {
+    Store earlier(place);
+    fill(earlier, 2);
+  }
+  Store run(place), pruning(place);
+  ASSERT_TRUE(run.contains({0, 1}));
+  usleep(3000);
+  ASSERT_TRUE(pruning.find({1, 1}));
+  const std::size_t each = pruning.bytes_of({1, 1});
+  EXPECT_EQ(prune(pruning, {{}, each}).results, 1u);
+  EXPECT_TRUE(fs::exists(blob_file(place, {0, 1})));
+  EXPECT_FALSE(fs::exists(blob_file(place, {1, 1})));
+}
+
 TEST(Upkeep, APrunedResultIsMadeAgainByARunThatGoesOn) {
   const io::TestFolder folder;
+  {
+    Store earlier(folder.path() / "store");
+    fill(earlier, 3);
+  }
   Store run(folder.path() / "store"), pruning(folder.path() / "store");
-  fill(run, 3);
-  run.sync();
-  EXPECT_EQ(prune(pruning, {{}, 0}).results, 3u);
+  EXPECT_EQ(prune(pruning, {{}, 0}).results, 3u) << "the run has not asked for any yet";
   EXPECT_FALSE(run.find({1, 1}));
   EXPECT_EQ(run.damaged(), 0u);
   fill(run, 3);

@@ -48,9 +48,7 @@ struct ApplyChain : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    std::vector<Registration> registrations(in.registrations.size());
-    context.parallel(registrations.size(),
-                     [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
+    const std::vector<Registration> registrations = in.registrations.all(context);
     Chained chain = chained(*in.poses, edges_of(in.registrations), registrations, params);
 
     Out out;

@@ -35,10 +35,8 @@ struct ApplyCorrection : WholeStep {
             "stays smooth");
   }
 
-  Out run(const In& in, const Params& params, Context&) const {
-    std::vector<FrameRange> ranges;
-    for (std::size_t s = 0; s < in.ranges.size(); ++s) ranges.push_back(*in.ranges.open(s));
-    return {corrected(*in.trajectory, ranges, *in.poses, params.blend)};
+  Out run(const In& in, const Params& params, Context& context) const {
+    return {corrected(*in.trajectory, in.ranges.all(context), *in.poses, params.blend)};
   }
 };
 

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "divergence.hpp"
-#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::check_odometry {
@@ -93,10 +92,7 @@ struct CheckOdometry : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    if (in.frames.size() != in.trajectory->size())
-      throw Error("got " + counted(in.frames.size(), "frames") + " but " +
-                  counted(in.trajectory->size(), "poses") +
-                  " in the trajectory; wire the trajectory of these frames");
+    require_pose_each(*in.trajectory, in.frames.size());
     const DivergenceOptions options{{params.voxel_size, params.max_distance, params.max_points},
                                     params.min_path_length,
                                     params.max_frames,

@@ -5,6 +5,7 @@
 #include "motion_noise.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::constrain_odometry {
 namespace {
@@ -58,7 +59,7 @@ struct ConstrainOdometry : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const Poses odometry = middle_poses(in);
+    const Poses odometry = poses_of(in.ranges.all(context), *in.trajectory);
     if (in.registered && in.registered->size() != odometry.size())
       throw Error("got " + counted(odometry.size(), "segments") + " and " +
                   counted(in.registered->size(), "registered poses") +
@@ -79,22 +80,6 @@ struct ConstrainOdometry : WholeStep {
     context.count("motions of the odometry contradicted by the registrations",
                   noise.outliers.size());
     return out;
-  }
-
- private:
-  /// The odometry's pose of each segment's middle frame, whose coordinates the segment has.
-  static Poses middle_poses(const In& in) {
-    Poses poses;
-    for (std::size_t k = 0; k < in.ranges.size(); ++k) {
-      const auto range = in.ranges.open(k);
-      if (range->end > in.trajectory->size())
-        throw Error("segment " + std::to_string(k) + " has frames up to " +
-                    std::to_string(range->end) + ", the trajectory only " +
-                    std::to_string(in.trajectory->size()) + ": wire ranges of the same frames");
-      poses.T_world_segment.push_back(
-          in.trajectory->T_world_frame[range->first + range->size() / 2]);
-    }
-    return poses;
   }
 };
 

@@ -28,9 +28,7 @@ struct CollectConstraints : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    std::vector<Registration> registrations(in.registrations.size());
-    context.parallel(registrations.size(),
-                     [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
+    const std::vector<Registration> registrations = in.registrations.all(context);
     Out out{collected(edges_of(in.registrations), registrations, params.inflate)};
     context.count("registrations accepted", out.constraints.relative.size());
     context.count("registrations not accepted and left out",

@@ -1,15 +1,14 @@
 #include "plumb/slam/step.hpp"
 
+#include <gmock/gmock.h>
+
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "scene_for_test.hpp"
 
 namespace plumb::describe_fpfh {
 namespace {
-
-Segment segment_of(Cloud cloud) {
-  std::vector<std::uint16_t> frames(cloud.size(), 0);
-  return Segment().with(std::move(cloud), std::move(frames));
-}
 
 TEST(DescribeFpfhStep, GivesKeyPointsWithHistogramsNormalsAndBorderMarks) {
   TestContext context;
@@ -38,14 +37,10 @@ TEST(DescribeFpfhStep, RefusesASegmentWithoutNormalsAndNamesTheCure) {
   Cloud cloud;
   for (int k = 0; k < 10; ++k) cloud.add({static_cast<float>(k), 0, 0});
   TestContext context;
-  try {
-    StepUnderTest(*plumb_module())
-        .with("segment", segment_of(cloud))
-        .run<Features>("features", context);
-    FAIL() << "not refused";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("estimate.normals"), std::string::npos);
-  }
+  StepUnderTest step(*plumb_module());
+  step.with("segment", segment_of(cloud));
+  EXPECT_THAT(io::refusal([&] { step.run<Features>("features", context); }),
+              testing::HasSubstr("estimate.normals"));
 }
 
 TEST(DescribeFpfhStep, GivesNoFeaturesForAnEmptySegment) {

@@ -6,6 +6,7 @@
 
 #include "neighbours.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/step.hpp"
 
 namespace plumb::edges_overlap {
@@ -19,10 +20,6 @@ Cloud random_cloud(std::size_t count, const Eigen::Vector3f& half, std::uint64_t
                half.y() * static_cast<float>(2 * random.uniform() - 1),
                half.z() * static_cast<float>(2 * random.uniform() - 1)});
   return cloud;
-}
-Segment segment_of(Cloud cloud) {
-  std::vector<std::uint16_t> frames(cloud.size(), 0);
-  return Segment().with(std::move(cloud), std::move(frames));
 }
 Pose at(double x, double y, double z, double yaw = 0) {
   return {exp_rotation({0, 0, yaw}), {x, y, z}};

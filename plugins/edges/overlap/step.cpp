@@ -51,9 +51,7 @@ struct OverlapEdges : WholeStep {
                   ", so there is nothing to register: cut shorter segments "
                   "(segment.by_count: frames, "
                   "segment.by_distance: length)");
-    if (in.poses->size() != count)
-      throw Error("got " + counted(count, "segments") + " and " +
-                  counted(in.poses->size(), "poses") + ": wire poses of the same segments");
+    require_pose_each(*in.poses, count);
     auto found = neighbours(
         count, [&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses, params,
         context);

@@ -1,6 +1,5 @@
 #include "plumb/slam/step.hpp"
 
-#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/values.hpp"
 #include "submap.hpp"
@@ -41,9 +40,7 @@ struct LoopsSubmap : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    if (in.poses->size() != in.segments.size())
-      throw Error("got " + counted(in.segments.size(), "segments") + " and " +
-                  counted(in.poses->size(), "poses") + ": wire poses of the same segments");
+    require_pose_each(*in.poses, in.segments.size());
     auto found = find_loops([&](std::size_t k) { return in.segments.open(k).shared(); }, *in.poses,
                             in.known ? &*in.known : nullptr, params, context);
     Out out;

@@ -4,6 +4,7 @@
 
 #include "consistent.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/step.hpp"
 #include "shared/planar/room_testing.hpp"
 #include "uncertainty.hpp"
@@ -24,13 +25,6 @@ Cloud scan(const Plan& plan, const PlanarPose& at) {
                  static_cast<float>(nearest * std::sin(angle)), 0});
   }
   return cloud;
-}
-
-Segment segment_of(const Cloud& cloud) {
-  Segment segment;
-  segment.range.end = 1;
-  segment.range.T_segment_frame.resize(1);
-  return segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0));
 }
 
 /// A square ring of corridors, 12 m x 12 m outside and 2 m wide, with niches at uneven places.

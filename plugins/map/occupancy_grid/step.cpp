@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "occupancy.hpp"
-#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::map_occupancy_grid {
@@ -49,10 +48,7 @@ struct OccupancyGrid : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
-    if (frames != in.trajectory->size())
-      throw Error("got " + counted(frames, "frames") + " but " +
-                  counted(in.trajectory->size(), "poses") +
-                  " in the trajectory; wire the trajectory of these frames");
+    require_pose_each(*in.trajectory, frames);
     std::vector<PlacedScan> scans(frames);
     context.parallel(frames, [&](std::size_t k) {
       scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);

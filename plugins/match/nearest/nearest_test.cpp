@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <numbers>
 
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/step.hpp"
 
 namespace plumb::match_nearest {
 namespace {
 
-Segment segment_of(Cloud cloud) {
-  std::vector<std::uint16_t> frames(cloud.size(), 0);
-  return Segment().with(std::move(cloud), std::move(frames));
-}
 Cloud random_cloud(std::size_t count, float half, std::uint64_t seed) {
   Random random(seed);
   Cloud cloud;
@@ -226,44 +224,35 @@ TEST(NearestBothWays, LeavesOutPlanesOfUnknownNormalOnTheSideThatIsAsked) {
 TEST(NearestBothWays, NeedsNormalsOfTheFirstSegmentTooForPlanes) {
   Cloud with = random_cloud(20, 5, 1);
   give_normals(with, {0, 0, 1});
-  const auto refused = [&](bool both) {
+  const auto wired = [&](bool both) {
     StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", segment_of(random_cloud(20, 5, 1)), segment_of(with))
         .part("poses", Pose());
-    step.set("metric", std::string("plane")).set("both_ways", both);
-    TestContext context;
-    try {
-      step.run<Matches>("matches", context);
-    } catch (const Error& e) {
-      EXPECT_THAT(e.what(), testing::HasSubstr("both_ways"));
-      return true;
-    }
-    return false;
+    return step.set("metric", std::string("plane")).set("both_ways", both);
   };
-  EXPECT_TRUE(refused(true));
-  EXPECT_FALSE(refused(false));
+  TestContext context;
+  EXPECT_THAT(io::refusal([&] { wired(true).run<Matches>("matches", context); }),
+              testing::HasSubstr("both_ways"));
+  EXPECT_NO_THROW(wired(false).run<Matches>("matches", context));
 }
 
 TEST(Nearest, RefusesWhatNeedsNormalsWithoutThemAndNamesTheCure) {
   const Segment bare = segment_of(random_cloud(20, 5, 1));
-  const auto refusal = [&](const char* parameter, ParameterValue value) -> std::string {
+  TestContext context;
+  const auto run = [&](const char* parameter, ParameterValue value) {
     StepUnderTest step(*plumb_module());
     step.over("edges")
         .ends("segments", bare, bare)
         .part("poses", Pose())
         .set(parameter, std::move(value));
-    TestContext context;
-    try {
-      step.run<Matches>("matches", context);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    step.run<Matches>("matches", context);
   };
-  EXPECT_THAT(refusal("metric", std::string("plane")), testing::HasSubstr("estimate.normals"));
-  EXPECT_THAT(refusal("max_normal_angle", 0.5), testing::HasSubstr("estimate.normals"));
-  EXPECT_EQ(refusal("metric", std::string("point")), "");
+  EXPECT_THAT(io::refusal([&] { run("metric", std::string("plane")); }),
+              testing::HasSubstr("estimate.normals"));
+  EXPECT_THAT(io::refusal([&] { run("max_normal_angle", 0.5); }),
+              testing::HasSubstr("estimate.normals"));
+  EXPECT_NO_THROW(run("metric", std::string("point")));
 }
 
 }  // namespace

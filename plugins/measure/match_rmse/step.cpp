@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "match_rmse.hpp"
-#include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
 
 namespace plumb::measure_match_rmse {
@@ -81,13 +80,8 @@ struct MatchRmse : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t segments = in.segments.size();
-    const auto check = [&](const Poses& poses) {
-      if (poses.size() != segments)
-        throw Error("got " + counted(poses.size(), "poses") + " but " +
-                    counted(segments, "segments") + "; wire poses of the same segments");
-    };
-    for (const auto& [label, poses] : in.poses) check(*poses);
-    if (in.pairs) check(*in.pairs);
+    for (const auto& [label, poses] : in.poses) require_pose_each(*poses, segments);
+    if (in.pairs) require_pose_each(*in.pairs, segments);
     const auto& edges = in.edges->list;
     for (const auto& edge : edges)
       if (edge.i >= segments || edge.j >= segments)

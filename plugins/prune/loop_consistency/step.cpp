@@ -100,9 +100,7 @@ struct PruneLoopConsistency : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const auto& edges = edges_of(in.registrations).list;
-    std::vector<Registration> registrations(in.registrations.size());
-    context.parallel(registrations.size(),
-                     [&](std::size_t k) { registrations[k] = *in.registrations.open(k); });
+    const std::vector<Registration> registrations = in.registrations.all(context);
     std::vector<Loop> loops;
     std::vector<std::size_t> of;
     for (std::size_t k = 0; k < edges.size(); ++k) {

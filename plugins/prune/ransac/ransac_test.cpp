@@ -3,16 +3,11 @@
 #include <gmock/gmock.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/step.hpp"
 
 namespace plumb::prune_ransac {
 namespace {
-
-Eigen::Vector3f in_cube(Random& random, float half) {
-  return {half * static_cast<float>(2 * random.uniform() - 1),
-          half * static_cast<float>(2 * random.uniform() - 1),
-          half * static_cast<float>(2 * random.uniform() - 1)};
-}
 
 const Pose motion(exp_rotation({0.1, -0.2, 0.9}), {5, -3, 1});
 

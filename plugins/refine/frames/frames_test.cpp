@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/step.hpp"
 #include "refine.hpp"
@@ -216,12 +217,7 @@ struct Walk {
   }
   std::string refusal() const {
     TestContext context;
-    try {
-      refined(context);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    return io::refusal([&] { refined(context); });
   }
 };
 
@@ -274,7 +270,7 @@ TEST(RefineFrames, RefusesFramesPosesAndSegmentsThatDoNotBelongTogether) {
   EXPECT_THAT(frames.refusal(), HasSubstr("3 segments, 3 poses, 5 frames and a trajectory of 6"));
   EXPECT_THAT(poses.refusal(), HasSubstr("2 poses"));
   EXPECT_THAT(range.refusal(), HasSubstr("segment 2 has frames that the trajectory does not have"));
-  EXPECT_EQ(Walk().refusal(), "");
+  EXPECT_EQ(Walk().refusal(), "(nothing was refused)");
 }
 
 TEST(RefineFrames, RefusesSegmentsWithoutNormalsAndNamesTheCure) {

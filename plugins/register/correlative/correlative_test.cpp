@@ -5,6 +5,7 @@
 #include <random>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/registration.hpp"
 #include "plumb/slam/step.hpp"
 #include "shared/planar/room_testing.hpp"
@@ -79,12 +80,6 @@ TEST(Correlate, LeavesThePoseWhereThereIsNothingInRange) {
 }
 
 TEST(CorrelativeStep, AcceptsWhatFitsAndSaysSo) {
-  const auto segment_of = [](const Cloud& cloud) {
-    Segment segment;
-    segment.range.end = 1;
-    segment.range.T_segment_frame.resize(1);
-    return segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0));
-  };
   const Segment i = segment_of(scan(room, {}, 360, 20, 1)),
                 j = segment_of(scan(room, {0.1, 0.05, 0.1}, 360, 20, 2));
   StepUnderTest step(*plumb_module());

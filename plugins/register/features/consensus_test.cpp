@@ -4,16 +4,10 @@
 
 #include <Eigen/Geometry>
 
-#include "plumb/plugin/context.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 
 namespace plumb::register_features {
 namespace {
-
-Eigen::Vector3f in_cube(Random& random, float half) {
-  return {half * static_cast<float>(2 * random.uniform() - 1),
-          half * static_cast<float>(2 * random.uniform() - 1),
-          half * static_cast<float>(2 * random.uniform() - 1)};
-}
 
 const Pose T_j_i(exp_rotation({0.2, -0.4, 2.5}), {40, -25, 3});
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "plumb/slam/segment.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 
 namespace plumb::register_features {
 
@@ -72,11 +72,6 @@ inline Cloud moved(const Cloud& cloud, const Pose& pose) {
     result.nz.push_back(normal.z());
   }
   return result;
-}
-
-inline Segment segment_of(Cloud cloud) {
-  std::vector<std::uint16_t> frames(cloud.size(), 0);
-  return Segment().with(std::move(cloud), std::move(frames));
 }
 
 /// The world's points as a segment that stands at T_world_segment.

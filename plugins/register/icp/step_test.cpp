@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/registration.hpp"
-#include "plumb/slam/segment.hpp"
 #include "shared/planar/room_testing.hpp"
 
 namespace plumb::register_icp {
@@ -14,13 +14,6 @@ using planar::PlanarPose;
 
 Cloud scan(const PlanarPose& at, int beams, double noise, unsigned seed) {
   return planar::room_scan<Cloud>(at, beams, noise, seed);
-}
-
-Segment segment_of(const Cloud& cloud) {
-  Segment segment;
-  segment.range.end = 1;
-  segment.range.T_segment_frame.resize(1);
-  return segment.with(cloud, std::vector<std::uint16_t>(cloud.size(), 0));
 }
 
 TEST(RegisterStep, RegistersTheSourceOfJToTheTargetOfI) {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/step.hpp"
@@ -85,12 +85,9 @@ TEST(SegmentByCount, PutsEachSegmentIntoItsMiddleFrameAndCoversTheTrajectory) {
 TEST(SegmentByCount, RefusesMoreFramesThanAPointCanName) {
   Poses poses;
   EXPECT_EQ(run(turning(65535), 65535, poses).size(), 1u);
-  try {
-    run(turning(65536 + 20000), 65535, poses);  // the last 20001 join
-    FAIL() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("at most 65535 are possible"));
-  }
+  EXPECT_THAT(
+      io::refusal([&] { run(turning(65536 + 20000), 65535, poses); }),  // the last 20001 join
+      HasSubstr("at most 65535 are possible"));
 }
 
 }  // namespace

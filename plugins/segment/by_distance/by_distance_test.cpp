@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/step.hpp"
@@ -137,12 +138,9 @@ TEST(SegmentByDistance, GrowsItsSegmentsOnALongWayWhenToldTo) {
 
 TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {
   const Step& step = *plumb_module()->steps[0];
-  try {
-    step.parameters({{"length", 15.0}, {"max_length", 10.0}});
-    FAIL() << "was not refused";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("max_length must not be smaller than length"));
-  }
+  const ParameterValues wrong = {{"length", 15.0}, {"max_length", 10.0}};
+  EXPECT_THAT(io::refusal([&] { step.parameters(wrong); }),
+              testing::HasSubstr("max_length must not be smaller than length"));
   EXPECT_NO_THROW(step.parameters({{"length", 15.0}, {"max_length", 15.0}}));
 }
 

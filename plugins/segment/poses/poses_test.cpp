@@ -1,3 +1,4 @@
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/range.hpp"
 #include "plumb/slam/step.hpp"
@@ -47,17 +48,10 @@ TEST(SegmentPoses, OfAnotherTrajectoryAreThoseOfTheMiddleFrames) {
 TEST(SegmentPoses, RefusesRangesOfALongerTrajectory) {
   const auto ranges = ranges_from(along_x(10, 1), {0, 4, 7});
   TestContext context;
-  try {
-    StepUnderTest(*plumb_module())
-        .with("trajectory", along_x(9, 1))
-        .each("ranges", ranges)
-        .run<Poses>("poses", context);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_STREQ(
-        e.what(),
-        "segment 2 has frames up to 10, the trajectory only 9: wire ranges of the same frames");
-  }
+  StepUnderTest step(*plumb_module());
+  step.with("trajectory", along_x(9, 1)).each("ranges", ranges);
+  EXPECT_EQ(io::refusal([&] { step.run<Poses>("poses", context); }),
+            "segment 2 has frames up to 10, the trajectory only 9: wire ranges of the same frames");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "plumb/slam/step.hpp"
 
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/range.hpp"
 
 namespace plumb::segment_poses {
 namespace {
@@ -27,18 +28,8 @@ struct SegmentPoses : WholeStep {
               "coordinates");
   }
 
-  Out run(const In& in, const Params&, Context&) const {
-    Out out;
-    for (std::size_t k = 0; k < in.ranges.size(); ++k) {
-      const auto range = in.ranges.open(k);
-      if (range->end > in.trajectory->size())
-        throw Error("segment " + std::to_string(k) + " has frames up to " +
-                    std::to_string(range->end) + ", the trajectory only " +
-                    std::to_string(in.trajectory->size()) + ": wire ranges of the same frames");
-      out.poses.T_world_segment.push_back(
-          in.trajectory->T_world_frame[range->first + range->size() / 2]);
-    }
-    return out;
+  Out run(const In& in, const Params&, Context& context) const {
+    return {poses_of(in.ranges.all(context), *in.trajectory)};
   }
 };
 

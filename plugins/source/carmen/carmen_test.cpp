@@ -5,12 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plumb/data/io/file_testing.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/plugin/testing.hpp"
-#include "plumb/slam/step.hpp"
-
-extern "C" const PlumbModule* plumb_module();
+#include "plumb/slam/io/source_testing.hpp"
 
 namespace plumb::source_carmen {
 namespace {
@@ -59,22 +54,9 @@ std::string gzipped(std::string text) {
 
 struct CarmenLogs : testing::Test {
   io::TestFolder folder;
-  struct Result {
-    LazyItems frames;
-    Trajectory trajectory;
-    TestContext context;
-    Cloud cloud(std::size_t k) { return frames.open(k, context).as<Frame>()->cloud; }
-    std::uint64_t count(const std::string& what) { return context.counts[what]; }
-  };
-  Result read(const std::string& bytes, ParameterValues values = {}) const {
+  SourceResult read(const std::string& bytes, ParameterValues values = {}) const {
     values["path"] = folder.write("some.log", bytes).string();
-    const Step& step = *plumb_module()->steps[0];
-    PortOutput outputs[2];
-    Result result;
-    step.run(step.parameters(values).get(), {}, outputs, result.context);
-    result.frames = outputs[0].lazy;
-    result.trajectory = *outputs[1].one.as<Trajectory>();
-    return result;
+    return read_source(values);
   }
   std::string refused(const std::string& bytes) const {
     return io::refusal([&] { read(bytes); });

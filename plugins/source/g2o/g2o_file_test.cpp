@@ -1,11 +1,8 @@
 #include "g2o_file.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
-
-#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/step.hpp"
@@ -20,19 +17,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct G2oFile : testing::Test {
-  fs::path path = fs::temp_directory_path() / ("plumb_" + std::to_string(::getpid()) + ".g2o");
-  ~G2oFile() override { fs::remove(path); }
-  G2oGraph read(const std::string& text) const {
-    std::ofstream(path) << text;
-    return read_g2o(path);
-  }
+  io::TestFolder folder;
+  fs::path path = folder.path() / "graph.g2o";
+
+  G2oGraph read(const std::string& text) const { return read_g2o(folder.write("graph.g2o", text)); }
   std::string refusal(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
+    return io::refusal([&] { read(text); });
   }
 };
 

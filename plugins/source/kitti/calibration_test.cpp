@@ -1,17 +1,10 @@
 #include "calibration.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <limits>
 
-#include "plumb/data/error.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/plugin/testing.hpp"
-#include "plumb/slam/step.hpp"
-
-extern "C" const PlumbModule* plumb_module();
+#include "plumb/slam/io/source_testing.hpp"
 
 namespace plumb::source_kitti {
 namespace {
@@ -22,65 +15,50 @@ using testing::HasSubstr;
 /// Three frames; frame k has the points (k, 1, 2) and one that is no number. The camera looks along
 /// the laser's x.
 struct KittiFolder : testing::Test {
-  fs::path path = fs::temp_directory_path() / ("plumb_kitti_" + std::to_string(::getpid()));
+  io::TestFolder folder;
+  const fs::path& path = folder.path();
+
   KittiFolder() {
-    fs::create_directories(path / "velodyne");
     for (int k = 0; k < 3; ++k) {
       const float nan = std::numeric_limits<float>::quiet_NaN();
       const float points[8] = {static_cast<float>(k), 1, 2, 0.5f, nan, 0, 0, 0};
-      write("velodyne/00000" + std::to_string(k) + ".bin",
-            std::string(reinterpret_cast<const char*>(points), sizeof points));
+      folder.write("velodyne/00000" + std::to_string(k) + ".bin",
+                   std::string(reinterpret_cast<const char*>(points), sizeof points));
     }
-    write("times.txt", "0\n1.0e-01\n0.2\n");
+    folder.write("times.txt", "0\n1.0e-01\n0.2\n");
     // The camera goes 5 m along its z, which is forward.
-    write("poses.txt",
-          "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 5\n1 0 0 0 0 1 0 0 0 0 1 10\n");
-    write("calib.txt", "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n");
+    folder.write("poses.txt",
+                 "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 5\n1 0 0 0 0 1 0 0 0 0 1 10\n");
+    folder.write("calib.txt",
+                 "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0.1 0 0 -1 -0.2 1 0 0 -0.3\n");
   }
-  ~KittiFolder() override { fs::remove_all(path); }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-  }
-  struct Result {
-    LazyItems frames;
-    Trajectory trajectory;
-  };
-  Result run(TestContext& context, ParameterValues values = {}) const {
+  SourceResult run(ParameterValues values = {}) const {
     values.emplace("path", path.string());
-    const Step& step = *plumb_module()->steps[0];
-    PortOutput outputs[2];
-    step.run(step.parameters(values).get(), {}, outputs, context);
-    return {outputs[0].lazy, *outputs[1].one.as<Trajectory>()};
+    return read_source(values);
   }
-  std::string refusal(ParameterValues values = {}) const {
-    TestContext context;
-    try {
-      const auto result = run(context, std::move(values));
-      for (std::size_t k = 0; k < result.frames.keys.size(); ++k) result.frames.open(k, context);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
+  std::string refusal(const ParameterValues& values = {}) const {
+    return io::refusal([&] {
+      auto sequence = run(values);
+      for (std::size_t k = 0; k < sequence.frames.keys.size(); ++k) sequence.frame(k);
+    });
   }
 };
 
 TEST_F(KittiFolder, IsReadFrameByFrame) {
-  TestContext context;
-  const auto sequence = run(context);
+  auto sequence = run();
   ASSERT_EQ(sequence.frames.keys.size(), 3u);
   EXPECT_EQ(sequence.trajectory.stamps[1], 0.1);
   EXPECT_EQ(sequence.trajectory.T_world_frame[2].translation, Eigen::Vector3d(0, 0, 10));
-  const auto frame = sequence.frames.open(2, context).as<Frame>();
-  EXPECT_EQ(frame->index, 2u);
-  ASSERT_EQ(frame->cloud.size(), 1u);
-  EXPECT_EQ(frame->cloud.point(0), Eigen::Vector3f(2, 1, 2));
-  EXPECT_EQ(frame->cloud.intensity[0], 0.5f);
-  EXPECT_EQ(context.counts["points with a non-finite coordinate dropped"], 1u);
+  const Frame frame = sequence.frame(2);
+  EXPECT_EQ(frame.index, 2u);
+  ASSERT_EQ(frame.cloud.size(), 1u);
+  EXPECT_EQ(frame.cloud.point(0), Eigen::Vector3f(2, 1, 2));
+  EXPECT_EQ(frame.cloud.intensity[0], 0.5f);
+  EXPECT_EQ(sequence.count("points with a non-finite coordinate dropped"), 1u);
 }
 
 TEST_F(KittiFolder, GivesTheLasersPosesWhereACalibrationIsNamed) {
-  TestContext context;
-  const auto sequence = run(context, {{"calibration", (path / "calib.txt").string()}});
+  const auto sequence = run({{"calibration", (path / "calib.txt").string()}});
   const auto& poses = sequence.trajectory.T_world_frame;
   EXPECT_LT(poses[0].translation.norm() + angle(poses[0]), 1e-12);
   EXPECT_LT((poses[2].translation - Eigen::Vector3d(10, 0, 0)).norm(),
@@ -98,7 +76,7 @@ TEST_F(KittiFolder, KeepsWhatTheCameraSawWhereItWas) {
 }
 
 TEST_F(KittiFolder, IsRefusedWhenAScanIsCutShort) {
-  write("velodyne/000001.bin", std::string(30, '\0'));
+  folder.write("velodyne/000001.bin", std::string(30, '\0'));
   EXPECT_THAT(refusal(), HasSubstr("000001.bin: has 30 bytes, which is not a multiple of 16"));
 }
 
@@ -119,11 +97,11 @@ TEST_F(KittiFolder, IsRefusedWithoutFramesPosesOrTimes) {
 
 TEST_F(KittiFolder, IsRefusedWithACalibrationThatIsNone) {
   const ParameterValues values = {{"calibration", (path / "calib.txt").string()}};
-  write("calib.txt", "P0: 1 2 3\n");
+  folder.write("calib.txt", "P0: 1 2 3\n");
   EXPECT_THAT(refusal(values), HasSubstr("calib.txt: has no line 'Tr:'"));
-  write("calib.txt", "\nTr: 1 0 0 0 0 1 0 0 0 0 1\n");
+  folder.write("calib.txt", "\nTr: 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(refusal(values), HasSubstr("calib.txt:2: expected 12 numbers"));
-  write("calib.txt", "Tr: 2 0 0 0 0 2 0 0 0 0 2 0\n");
+  folder.write("calib.txt", "Tr: 2 0 0 0 0 2 0 0 0 0 2 0\n");
   EXPECT_THAT(refusal(values), HasSubstr("is not a rotation"));
 }
 

@@ -55,9 +55,7 @@ struct Kitti : WholeStep {
 
     for (const auto& file : files) out.frames.keys.push_back(io::key_of(file));
     out.frames.open = [files = std::move(files)](std::size_t k, Context& context) {
-      auto [cloud, dropped] = read_bin(files[k].path);
-      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
-      return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
+      return io::frame_of(k, read_bin(files[k].path), context);
     };
     return out;
   }

@@ -1,16 +1,8 @@
 #include "scans.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
-
-#include "plumb/data/error.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/plugin/testing.hpp"
-#include "plumb/slam/step.hpp"
-
-extern "C" const PlumbModule* plumb_module();
+#include "plumb/slam/io/source_testing.hpp"
 
 namespace plumb::source_mulran {
 namespace {
@@ -22,10 +14,10 @@ using testing::HasSubstr;
 /// a second along x.
 struct MulRanFolder : testing::Test {
   static constexpr std::uint64_t second = 1000000000, T = 1567410201ull * second;
-  fs::path path = fs::temp_directory_path() / ("plumb_mulran_" + std::to_string(::getpid()));
+  io::TestFolder folder;
+  const fs::path& path = folder.path();
 
   MulRanFolder() {
-    fs::create_directories(path / "Ouster");
     for (const std::uint64_t half : {21, 1, 3})
       scan("Ouster/" + std::to_string(T + half * second / 2) + ".bin",
            0.5f * static_cast<float>(half));
@@ -36,41 +28,20 @@ struct MulRanFolder : testing::Test {
       tum += std::to_string(T / second + static_cast<std::uint64_t>(s)) + " " +
              std::to_string(2 * s) + " 0 0 0 0 0 1\n";
     }
-    write("global_pose.csv", csv);
-    write("slam.tum", tum);
-  }
-  ~MulRanFolder() override { fs::remove_all(path); }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
+    folder.write("global_pose.csv", csv);
+    folder.write("slam.tum", tum);
   }
   void scan(const std::string& name, float x) const {
     const float point[4] = {x, 0, 0, 7};
-    write(name, std::string(reinterpret_cast<const char*>(point), sizeof point));
+    folder.write(name, std::string(reinterpret_cast<const char*>(point), sizeof point));
   }
-  struct Result {
-    LazyItems frames;
-    Trajectory trajectory;
-    TestContext context;
-    float x(std::size_t k) { return frames.open(k, context).as<Frame>()->cloud.x[0]; }
-  };
-  Result run(const std::string& trajectory, ParameterValues values = {}) const {
+  SourceResult run(const std::string& trajectory, ParameterValues values = {}) const {
     values.emplace("path", path.string());
     values.emplace("trajectory", (path / trajectory).string());
-    const Step& step = *plumb_module()->steps[0];
-    PortOutput outputs[2];
-    Result result;
-    step.run(step.parameters(values).get(), {}, outputs, result.context);
-    result.frames = outputs[0].lazy;
-    result.trajectory = *outputs[1].one.as<Trajectory>();
-    return result;
+    return read_source(values);
   }
-  std::string refusal(const std::string& trajectory, ParameterValues values = {}) const {
-    try {
-      run(trajectory, std::move(values));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
+  std::string refusal(const std::string& trajectory, const ParameterValues& values = {}) const {
+    return io::refusal([&] { run(trajectory, values); });
   }
 };
 
@@ -78,8 +49,8 @@ TEST_F(MulRanFolder, InterpolatesPosesAtTheScansStampsInOrderOfTime) {
   for (const char* trajectory : {"global_pose.csv", "slam.tum"}) {
     auto sequence = run(trajectory);
     ASSERT_EQ(sequence.frames.keys.size(), 3u);
-    EXPECT_EQ(sequence.x(0), 0.5f);
-    EXPECT_EQ(sequence.x(2), 10.5f);
+    EXPECT_EQ(sequence.cloud(0).x[0], 0.5f);
+    EXPECT_EQ(sequence.cloud(2).x[0], 10.5f);
     EXPECT_NEAR(sequence.trajectory.T_world_frame[0].translation.x(), 1, 1e-5);
     EXPECT_NEAR(sequence.trajectory.T_world_frame[2].translation.x(), 21, 1e-5);
     EXPECT_NEAR(sequence.trajectory.stamps[1] - 1567410201, 1.5, 1e-6);
@@ -93,8 +64,8 @@ TEST_F(MulRanFolder, LeavesOutScansWithoutPosesAndCountsThem) {
   scan("Ouster/" + std::to_string(T + 12 * second) + ".bin", 12);
   auto sequence = run("global_pose.csv");
   EXPECT_EQ(sequence.frames.keys.size(), 3u);
-  EXPECT_EQ(sequence.context.counts["frames outside the trajectory's time left out"], 2u);
-  EXPECT_EQ(sequence.context.counts["frames in gaps of the trajectory left out"], 1u);
+  EXPECT_EQ(sequence.count("frames outside the trajectory's time left out"), 2u);
+  EXPECT_EQ(sequence.count("frames in gaps of the trajectory left out"), 1u);
   auto all = run("global_pose.csv", {{"max_time_gap", 10.0}});
   ASSERT_EQ(all.frames.keys.size(), 4u);
   EXPECT_NEAR(all.trajectory.T_world_frame[2].translation.x(), 10, 1e-5);
@@ -119,7 +90,6 @@ TEST_F(MulRanFolder, ReadsScansWithoutAFolderOfTheirOwn) {
 }
 
 TEST_F(MulRanFolder, OrdersStampsAsNumbers) {
-  fs::create_directories(path / "short");
   for (const char* name : {"short/1000000000.bin", "short/999999999.bin"}) scan(name, 0);
   const auto scans = scans_of(path / "short");
   EXPECT_EQ(scans[0].file.name, "999999999.bin");
@@ -132,7 +102,7 @@ TEST_F(MulRanFolder, IsRefusedWithNamesThatAreNoStamps) {
 }
 
 TEST_F(MulRanFolder, IsRefusedWithTheTrajectoryOfAnotherDrive) {
-  write("other.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
+  folder.write("other.tum", "5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
   EXPECT_THAT(refusal("other.tum"), HasSubstr("has 3 frames, of which 0 lie within the time of"));
   EXPECT_THAT(refusal("slam.json"), HasSubstr("is neither .tum, .txt nor .csv"));
   EXPECT_THAT(refusal("none.tum"), HasSubstr("cannot be opened"));

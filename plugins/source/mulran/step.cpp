@@ -66,9 +66,7 @@ struct MulRan : WholeStep {
     out.trajectory = std::move(placing.trajectory);
     for (const Scan& scan : placing.scans) out.frames.keys.push_back(io::key_of(scan.file));
     out.frames.open = [kept = std::move(placing.scans)](std::size_t k, Context& reading) {
-      auto [cloud, dropped] = read_bin(kept[k].file.path);
-      if (dropped) reading.count("points with a non-finite coordinate dropped", dropped);
-      return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
+      return io::frame_of(k, read_bin(kept[k].file.path), reading);
     };
     return out;
   }

@@ -1,18 +1,11 @@
 #include "sequence_folder.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <limits>
 
-#include "plumb/data/error.hpp"
-#include "plumb/plugin/module.hpp"
-#include "plumb/plugin/testing.hpp"
 #include "plumb/slam/io/cloud_file.hpp"
-#include "plumb/slam/step.hpp"
-
-extern "C" const PlumbModule* plumb_module();
+#include "plumb/slam/io/source_testing.hpp"
 
 namespace plumb::source_sequence {
 namespace {
@@ -20,16 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A sequence folder of this test, removed at its end. Frame k has the points (k, 0, 0) and (k, 1,
-/// 0).
+/// Frame k has the points (k, 0, 0) and (k, 1, 0).
 struct Folder : testing::Test {
-  fs::path path = fs::temp_directory_path() / ("plumb_sequence_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path / "frames"); }
-  ~Folder() override { fs::remove_all(path); }
+  io::TestFolder folder;
+  const fs::path& path = folder.path();
 
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-  }
+  Folder() { fs::create_directories(path / "frames"); }
   static Cloud cloud_of(int k) {
     Cloud cloud;
     cloud.add({static_cast<float>(k), 0, 0});
@@ -38,42 +27,22 @@ struct Folder : testing::Test {
   }
   void frames(int n) const {
     for (int k = 0; k < n; ++k)
-      write("frames/00" + std::to_string(k) + ".pcd", pcd_bytes(cloud_of(k)));
+      folder.write("frames/00" + std::to_string(k) + ".pcd", pcd_bytes(cloud_of(k)));
   }
   void odometry(int n, const std::string& name = "odometry.tum") const {
     std::string text;
     for (int k = 0; k < n; ++k)
       text += std::to_string(k) + ".5 " + std::to_string(10 * k) +
               " 0 0 0 0 0.70710678118654752 0.70710678118654752\n";
-    write(name, text);
+    folder.write(name, text);
   }
 
-  struct Result {
-    Lazy<Frame> frames;
-    Trajectory trajectory;
-    TestContext context;
-    Frame frame(std::size_t k) { return frames.open(k, context); }
-  };
-  Result run(ParameterValues values = {}) const {
+  SourceResult run(ParameterValues values = {}) const {
     values.emplace("path", path.string());
-    const Step& step = *plumb_module()->steps[0];
-    PortOutput outputs[2];
-    Result result;
-    step.run(step.parameters(values).get(), {}, outputs, result.context);
-    result.frames.keys = outputs[0].lazy.keys;
-    result.frames.open = [open = outputs[0].lazy.open](std::size_t k, Context& context) {
-      return *open(k, context).template as<Frame>();
-    };
-    result.trajectory = *outputs[1].one.as<Trajectory>();
-    return result;
+    return read_source(values);
   }
-  std::string refusal(ParameterValues values = {}) const {
-    try {
-      run(std::move(values));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
+  std::string refusal(const ParameterValues& values = {}) const {
+    return io::refusal([&] { run(values); });
   }
 };
 
@@ -95,8 +64,7 @@ TEST_F(Folder, ReadsFramesInOrderOfTheirNames) {
 TEST_F(Folder, FollowsAListInItsOwnOrderAndOutOfTheFolder) {
   frames(3);
   odometry(2);
-  fs::create_directories(path / "trip");
-  write("trip/frames.txt", "# back and out\n../frames/002.pcd\n\n  ../frames/000.pcd\r\n");
+  folder.write("trip/frames.txt", "# back and out\n../frames/002.pcd\n\n  ../frames/000.pcd\r\n");
   auto sequence =
       run({{"path", (path / "trip").string()}, {"trajectory", (path / "odometry.tum").string()}});
   ASSERT_EQ(sequence.frames.keys.size(), 2u);
@@ -105,8 +73,8 @@ TEST_F(Folder, FollowsAListInItsOwnOrderAndOutOfTheFolder) {
 }
 
 TEST_F(Folder, ReadsPlyFramesToo) {
-  write("frames/0.ply", ply_bytes(cloud_of(7)));
-  write("frames/1.ply", ply_bytes(cloud_of(8)));
+  folder.write("frames/0.ply", ply_bytes(cloud_of(7)));
+  folder.write("frames/1.ply", ply_bytes(cloud_of(8)));
   odometry(2);
   EXPECT_EQ(run().frame(1).cloud.x[0], 8.0f);
 }
@@ -138,11 +106,11 @@ TEST_F(Folder, CountsPointsThatAreNoNumbers) {
   Cloud cloud = cloud_of(1);
   cloud.add({0, std::numeric_limits<float>::quiet_NaN(), 0});
   cloud.add({std::numeric_limits<float>::infinity(), 0, 0});
-  write("frames/001.pcd", pcd_bytes(cloud));
+  folder.write("frames/001.pcd", pcd_bytes(cloud));
   odometry(2);
   auto sequence = run();
   EXPECT_EQ(sequence.frame(1).cloud.size(), 2u);
-  EXPECT_EQ(sequence.context.counts["points with a non-finite coordinate dropped"], 2u);
+  EXPECT_EQ(sequence.count("points with a non-finite coordinate dropped"), 2u);
 }
 
 TEST_F(Folder, GivesAFrameAnotherKeyWhenItsFileOrItsUseChanges) {
@@ -151,15 +119,15 @@ TEST_F(Folder, GivesAFrameAnotherKeyWhenItsFileOrItsUseChanges) {
   const auto before = run().frames.keys;
   EXPECT_EQ(run().frames.keys, before);
   EXPECT_NE(before[0], before[1]);
-  write("frames/001.pcd", pcd_bytes(Cloud{.x = {1},
-                                          .y = {2},
-                                          .z = {3},
-                                          .intensity = {},
-                                          .time = {},
-                                          .ring = {},
-                                          .nx = {},
-                                          .ny = {},
-                                          .nz = {}}));
+  folder.write("frames/001.pcd", pcd_bytes(Cloud{.x = {1},
+                                                 .y = {2},
+                                                 .z = {3},
+                                                 .intensity = {},
+                                                 .time = {},
+                                                 .ring = {},
+                                                 .nx = {},
+                                                 .ny = {},
+                                                 .nz = {}}));
   const auto after = run().frames.keys;
   EXPECT_EQ(after[0], before[0]);
   EXPECT_NE(after[1], before[1]);
@@ -173,7 +141,7 @@ TEST_F(Folder, IsRefusedWhenItIsMissingOrEmpty) {
   EXPECT_THAT(refusal({{"path", (path / "odometry.tum").string()}}),
               HasSubstr("is not a directory"));
   EXPECT_THAT(refusal(), HasSubstr("has no frames"));
-  write("frames.txt", "# nothing\n");
+  folder.write("frames.txt", "# nothing\n");
   EXPECT_THAT(refusal(), HasSubstr("lists no frame"));
 }
 
@@ -196,9 +164,9 @@ TEST_F(Folder, IsRefusedWithASingleFrame) {
 TEST_F(Folder, IsRefusedWhenAListedFrameIsMissing) {
   frames(1);
   odometry(2);
-  write("frames.txt", "frames/000.pcd\nframes/009.pcd\n");
+  folder.write("frames.txt", "frames/000.pcd\nframes/009.pcd\n");
   EXPECT_THAT(refusal(), HasSubstr("frames.txt:2: frame 'frames/009.pcd' is missing"));
-  write("frames.txt", "frames/000.pcd\nframes/000.pcd\nframes\n");
+  folder.write("frames.txt", "frames/000.pcd\nframes/000.pcd\nframes\n");
   EXPECT_THAT(refusal(), HasSubstr("frames.txt:3: frame 'frames' is a folder, not a regular file"));
 }
 

@@ -56,10 +56,9 @@ struct Sequence : WholeStep {
       out.frames.keys.push_back(key_of_frame(files[k], world, trajectory->T_world_frame[k]));
     out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
                                                                     Context& context) {
-      auto [cloud, dropped] = read_cloud(files[k].path);
-      if (dropped) context.count("points with a non-finite coordinate dropped", dropped);
-      if (world) bring_to_frame(cloud, trajectory->T_world_frame[k]);
-      return Frame{static_cast<std::uint32_t>(k), std::move(cloud)};
+      Frame frame = io::frame_of(k, read_cloud(files[k].path), context);
+      if (world) bring_to_frame(frame.cloud, trajectory->T_world_frame[k]);
+      return frame;
     };
     return out;
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "map_file.hpp"
-#include "plumb/data/counted.hpp"
 #include "plumb/data/document.hpp"
 #include "plumb/plugin/module.hpp"
 #include "voxel_map.hpp"
@@ -56,10 +55,7 @@ struct WriteMap : WholeStep {
 
   Out run(const In& in, const Params& params, Context& context) const {
     const std::size_t frames = in.frames.size();
-    if (frames != in.trajectory->size())
-      throw Error("got " + counted(frames, "frames") + " but " +
-                  counted(in.trajectory->size(), "poses") +
-                  " in the trajectory; wire the trajectory of these frames");
+    require_pose_each(*in.trajectory, frames);
     const Eigen::Vector3d origin = map_origin(*in.trajectory);
     VoxelMap map(params.voxel_size, origin);
     std::uint64_t points = 0, too_far = 0;

@@ -44,8 +44,7 @@ struct WriteUncertainty : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    std::vector<FrameRange> ranges;
-    for (std::size_t k = 0; k < in.ranges.size(); ++k) ranges.push_back(*in.ranges.open(k));
+    const std::vector<FrameRange> ranges = in.ranges.all(context);
     if (ranges.empty() || ranges.back().end != in.trajectory->size())
       throw Error("the ranges do not cover the trajectory of " +
                   std::to_string(in.trajectory->size()) +

@@ -31,7 +31,7 @@ std::vector<PoseUncertainty> of_frames(const std::vector<PoseUncertainty>& segme
   const bool from_first =
       segments.size() > 1 && segments[0].position.isZero(0) && segments[0].rotation.isZero(0);
   const auto middle = [&](std::size_t s) -> std::size_t {
-    return s == 0 && from_first ? 0 : ranges[s].first + ranges[s].size() / 2;
+    return s == 0 && from_first ? 0 : ranges[s].middle();
   };
   std::size_t s = 0;
   for (std::size_t f = 0; f < frames && !ranges.empty(); ++f) {

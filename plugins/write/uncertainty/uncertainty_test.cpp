@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "plumb/data/document.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/step.hpp"
 #include "table.hpp"
@@ -263,14 +264,9 @@ TEST(WriteUncertainty, WarnsWhereTheSolverGaveNone) {
 }
 
 TEST(WriteUncertainty, RefusesRangesOfAnotherTrajectoryOrFewerSegments) {
-  const auto refusal = [](StepUnderTest step) -> std::string {
+  const auto refusal = [](const StepUnderTest& step) {
     TestContext context;
-    try {
-      step.run<Document>("document", context);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    return io::refusal([&] { step.run<Document>("document", context); });
   };
   EXPECT_THAT(refusal(wired().with("trajectory", along_x(10))),
               HasSubstr("do not cover the trajectory of 10 frames"));

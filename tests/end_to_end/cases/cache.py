@@ -1,4 +1,5 @@
 """`plumb cache`, the folder that it looks after by itself, its bound, and damage of its index."""
+import fcntl
 import re
 import subprocess
 import threading
@@ -208,6 +209,20 @@ def test_two_runs_with_a_small_bound_take_nothing_from_each_other(folder):
     made = [made_by(plumb(*cut_into(frames, store, "--cache-size", "none"), "-o", folder / "again")) for frames in (10, 15)]
     assert min(made) <= 2, made  # of the run that ended last nothing was removed
     plumb("cache", "verify", "--cache-dir", store).has("all whole")
+
+
+def test_prune_leaves_what_a_run_in_progress_holds(folder):
+    store = filled(folder)
+    kept = blobs_of(store)
+    with open(store / "runs/another.0", "wb") as run:  # as of one whose disk is full, which cannot say what it needs
+        fcntl.flock(run, fcntl.LOCK_EX)
+        run.write(b"x")
+        run.flush()
+        said = plumb("cache", "prune", "--size", "0B", "--cache-dir", store)
+        said.has("freed 0 B: 0 results; ", f", {len(kept)} of them because a run in progress holds them")
+        assert blobs_of(store) == kept
+    said = plumb("cache", "prune", "--size", "0B", "--cache-dir", store)
+    assert not blobs_of(store) and "in progress" not in said.out, said
 
 
 def test_pruning_while_a_run_goes_on_changes_no_result(folder):

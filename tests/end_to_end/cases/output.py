@@ -5,22 +5,12 @@ import signal
 import subprocess
 import time
 
-from plumb_test import (CASCADE, PLUMB, STEP_FAILED, UNSETTLED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, files_of, nothing_left, nothing_staged,
-                        plumb, refused, sequence)
-
-POSES = """plumb: 1
-name: poses
-parameters:
-  input: {type: path}
-steps:
-  sequence: {use: source.sequence,  with: {path: $input}}
-  copy:     {use: write.trajectory, from: sequence.trajectory}
-"""
+from plumb_test import (CASCADE, PLUMB, POSES, STEP_FAILED, UNSETTLED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, files_of, nothing_left,
+                        nothing_staged, plumb, poses_pipeline, refused, sequence)
 
 
 def run(folder, *options, code=0):
-    (folder / "poses.yaml").write_text(POSES)
-    return plumb("run", folder / "poses.yaml", "--set", f"input={sequence('street')}", *options, code=code)
+    return plumb("run", poses_pipeline(folder), "--set", f"input={sequence('street')}", *options, code=code)
 
 
 def test_a_link_leads_to_the_folder_and_stays_a_link(folder):
@@ -189,8 +179,7 @@ def test_an_interrupted_simulation_leaves_nothing(folder):
 
 
 def test_output_that_cannot_be_said_has_an_exit_code_of_its_own(folder):
-    (folder / "poses.yaml").write_text(POSES)
-    command = f"{PLUMB} run {folder}/poses.yaml --set input={sequence('street')} -o {folder}/out"
+    command = f"{PLUMB} run {poses_pipeline(folder)} --set input={sequence('street')} -o {folder}/out"
     simulation = f"{PLUMB} simulate blocks --frames 3 --lines 4 --columns 32 -o {folder}/blocks"
     nobody_reads = f"{{ {command}; echo $? >{folder}/code; }} | true"
     for line, made in ((f"{command} >/dev/full", "out/trajectory.tum"), (f"{command} >&-", "out/trajectory.tum"), (nobody_reads, "out/trajectory.tum"),
@@ -230,7 +219,7 @@ def test_the_store_and_the_results_lie_apart(folder):
 
 def test_what_is_to_be_changed_is_named_first(folder):
     """Not an option that was not given, nor one that is as good as it was yesterday."""
-    (folder / "poses.yaml").write_text(POSES)
+    pipeline = poses_pipeline(folder)
     (folder / "full").mkdir()
     (folder / "full/thesis.tex").write_text("mine")
     out, full = folder / "out", folder / "full"
@@ -249,7 +238,7 @@ def test_what_is_to_be_changed_is_named_first(folder):
             (["-o", out, "--cache-dir", full], {}, f"--cache-dir {full}: holds something else"),
             (["-o", out], {"PLUMB_CACHE_DIR": str(full)}, f"PLUMB_CACHE_DIR={full}: holds something else"),
             (["-o", out, "--log", out / "log"], {}, f"--log {out}/log: ")):
-        said = plumb("run", folder / "poses.yaml", "--set", f"input={sequence('street')}", *words, environment=variables, code=WRONG_INPUT)
+        said = plumb("run", pipeline, "--set", f"input={sequence('street')}", *words, environment=variables, code=WRONG_INPUT)
         refused(said)
         assert said.err.startswith(f"plumb: {named}"), said
     refused(run(folder, "-o", "/", code=WRONG_INPUT), "is the root of all folders", "with -o")

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb_test import (CASCADE, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, copy_of, files_of, nothing_left, plumb, refused, sequence)
+from plumb_test import (CASCADE, POSES, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, cascade, copy_of, files_of, nothing_left, plumb, poses_pipeline,
+                        refused, sequence)
 
 FAST = ["--set", "ranges.frames=2"]
 
@@ -140,22 +141,6 @@ def test_an_output_folder_that_holds_something_else(folder):
     refused(cascade(sequence("street"), out, code=WRONG_INPUT), str(out), "holiday.jpg", "with -o, or move it away")
     assert files_of(folder) == {"out/holiday.jpg": b"mine"}
     assert [p.name for p in folder.iterdir()] == ["out"]
-
-
-# A small pipeline that only copies poses: runs at once.
-POSES = """plumb: 1
-name: poses
-parameters:
-  input: {type: path}
-steps:
-  sequence: {use: source.sequence, with: {path: $input}}
-  copy:     {use: write.trajectory, from: sequence.trajectory}
-"""
-
-
-def poses_pipeline(folder):
-    (folder / "poses.yaml").write_text(POSES)
-    return folder / "poses.yaml"
 
 
 def test_an_earlier_run_is_replaced_but_kept_when_the_next_one_fails(folder):

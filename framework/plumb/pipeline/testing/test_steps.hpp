@@ -2,10 +2,7 @@
 /// For tests of pipelines: a registry of steps that do nothing, a folder for files, and a pipeline
 /// that has everything.
 
-#include <unistd.h>
-
-#include <fstream>
-
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/pipeline/reader.hpp"
 
 namespace plumb::test {
@@ -21,25 +18,7 @@ void add_cloud_steps(Registry& registry);
 void add_graph_steps(Registry& registry);
 
 /// A folder of its own for pipelines written in a test, removed afterwards.
-class Folder {
- public:
-  Folder() {
-    static int number = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("plumb_pipeline_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using Folder = io::TestFolder;
 
 /// A cascade of two stages with all that a pipeline may have.
 inline const std::string cascade = R"(plumb: 1

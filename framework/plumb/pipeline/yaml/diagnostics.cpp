@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "plumb/data/counted.hpp"
 #include "plumb/data/io/plain_text.hpp"
 
 namespace plumb {
@@ -99,6 +100,41 @@ void Diagnostics::add(const Origin& origin, std::string sentence, std::string hi
   if (list_.size() >= most_kept) raise();
 }
 
+namespace {
+
+/// What is said of a reference behind the place where it stands: "'$leaf' does not serve: ...".
+std::string_view said_of_reference(const Diagnostic& diagnostic) {
+  const std::string_view sentence = diagnostic.sentence;
+  const auto at = sentence.find(": '$");
+  const bool does_not_serve =
+      at != sentence.npos && sentence.find("' does not serve: ", at) != sentence.npos;
+  return does_not_serve ? sentence.substr(at) : "";
+}
+
+/// A value that does not serve where many steps refer to it is one mistake: told of the first
+/// place, with the number of the others.
+std::vector<Diagnostic> told_once(const std::vector<Diagnostic>& sorted) {
+  std::vector<Diagnostic> kept;
+  std::vector<std::size_t> more;  // places, of each that is kept
+  for (const Diagnostic& one : sorted) {
+    const auto said = said_of_reference(one);
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Diagnostic& d) {
+      return !said.empty() && said_of_reference(d) == said && d.hint == one.hint;
+    });
+    if (same != kept.end())
+      ++more[static_cast<std::size_t>(same - kept.begin())];
+    else
+      kept.push_back(one), more.push_back(0);
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (more[k] > 0)
+      kept[k].sentence.replace(kept[k].sentence.size() - 1, 1,
+                               "; nor does it in " + counted(more[k], "more places") + ".");
+  return kept;
+}
+
+}  // namespace
+
 void Diagnostics::raise() const {
   if (list_.empty()) return;
   auto sorted = list_;
@@ -108,7 +144,7 @@ void Diagnostics::raise() const {
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
-  throw PipelineError(std::move(sorted), list_.size() >= most_kept);
+  throw PipelineError(told_once(sorted), list_.size() >= most_kept);
 }
 
 namespace {

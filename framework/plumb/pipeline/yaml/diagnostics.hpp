@@ -48,7 +48,8 @@ class Diagnostics {
   /// take for ever.
   void add(const Origin& origin, std::string sentence, std::string hint = "");
   bool empty() const { return list_.empty(); }
-  /// Throws PipelineError if there is any.
+  /// Throws PipelineError if there is any. A value that does not serve in several places that refer
+  /// to it is told once.
   void raise() const;
 
  private:

@@ -1,12 +1,10 @@
 #include "plumb/slam/io/bin_file.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <limits>
 
-#include "plumb/data/error.hpp"
+#include "plumb/data/io/file_testing.hpp"
 #include "plumb/slam/io/frame_files.hpp"
 
 namespace plumb {
@@ -17,15 +15,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct BinFile : testing::Test {
-  fs::path folder = fs::temp_directory_path() / ("plumb_bin_" + std::to_string(::getpid()));
-  BinFile() { fs::create_directories(folder); }
-  ~BinFile() override { fs::remove_all(folder); }
+  io::TestFolder folder;
+
   fs::path write(const std::string& name, const std::vector<float>& values,
                  std::size_t cut = 0) const {
-    std::ofstream(folder / name, std::ios::binary)
-        .write(reinterpret_cast<const char*>(values.data()),
-               static_cast<std::streamsize>(4 * values.size() - cut));
-    return folder / name;
+    return folder.write(
+        name, std::string(reinterpret_cast<const char*>(values.data()), 4 * values.size() - cut));
   }
 };
 
@@ -42,20 +37,17 @@ TEST_F(BinFile, GivesPointsWithIntensityAndDropsWhatIsNoNumber) {
 
 TEST_F(BinFile, MayBeEmptyButNotCutShort) {
   EXPECT_TRUE(read_bin(write("empty.bin", {})).cloud.empty());
-  try {
-    read_bin(write("cut.bin", {1, 2, 3, 4, 5, 6, 7, 8}, 1));
-    FAIL() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cut.bin: has 31 bytes, which is not a multiple of 16"));
-  }
+  const fs::path cut = write("cut.bin", {1, 2, 3, 4, 5, 6, 7, 8}, 1);
+  EXPECT_THAT(io::refusal([&] { read_bin(cut); }),
+              HasSubstr("cut.bin: has 31 bytes, which is not a multiple of 16"));
 }
 
 TEST_F(BinFile, IsFoundByItsEndingInOrderOfNames) {
   for (const char* name : {"10.bin", "09.bin", "._09.bin", "notes.txt"}) write(name, {});
-  const auto files = io::files_in(folder, {".bin"}, "scans/");
+  const auto files = io::files_in(folder.path(), {".bin"}, "scans/");
   ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[0].name, "scans/09.bin");
-  EXPECT_EQ(files[1].path, folder / "10.bin");
+  EXPECT_EQ(files[1].path, folder.path() / "10.bin");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <unordered_set>
+#include <utility>
 
 #include "plumb/data/counted.hpp"
 #include "plumb/data/io/fence.hpp"
@@ -94,6 +95,11 @@ Hash128 key_of(const FrameFile& file) {
   if (!add_identity(hasher, file.path))
     refuse(file.path, "the frame cannot be read: restore the file or take it off the list");
   return hasher.hash();
+}
+
+Frame frame_of(std::size_t k, CloudFile read, Context& context) {
+  if (read.dropped) context.count("points with a non-finite coordinate dropped", read.dropped);
+  return {static_cast<std::uint32_t>(k), std::move(read.cloud)};
 }
 
 void require_folder(const fs::path& path, const std::string& cure) {

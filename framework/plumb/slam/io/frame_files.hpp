@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "plumb/data/hash.hpp"
+#include "plumb/plugin/context.hpp"
+#include "plumb/slam/io/cloud_file.hpp"
+#include "plumb/slam/segment.hpp"
 
 namespace plumb::io {
 
@@ -32,6 +35,9 @@ std::vector<FrameFile> sequence_frames(const std::filesystem::path& folder);
 /// A key that changes when the file does: hash of its name, size and time of change [ns]. Throws
 /// Error when it is no file.
 Hash128 key_of(const FrameFile& file);
+
+/// Frame k, with the cloud that was read of its file; the points that were left out are counted.
+Frame frame_of(std::size_t k, CloudFile read, Context& context);
 
 /// Throws Error unless `path` is a folder.
 void require_folder(const std::filesystem::path& path, const std::string& cure);
