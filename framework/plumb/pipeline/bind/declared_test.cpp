@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "plumb/pipeline/testing/stages_testing.hpp"
 
 namespace plumb::pipeline {

@@ -235,6 +235,7 @@ class Binder {
 
 std::vector<Inputs> inputs_of(const Declared& declared, References& references, Reading& reading) {
   std::vector<Inputs> all;
+  all.reserve(declared.steps.size());
   for (std::size_t k = 0; k < declared.steps.size(); ++k)
     all.push_back(Binder(declared, static_cast<int>(k), references, reading).bind());
   return all;

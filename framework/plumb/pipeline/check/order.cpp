@@ -45,6 +45,7 @@ class Levels {
 
   Order order() const {
     Order order{sorted(level(-1)), {}};
+    order.bodies.reserve(declared_.repeats.size());
     for (std::size_t k = 0; k < declared_.repeats.size(); ++k)
       order.bodies.push_back(sorted(level(static_cast<int>(k))));
     return order;
