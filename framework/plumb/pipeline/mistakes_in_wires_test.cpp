@@ -129,6 +129,8 @@ TEST(Mistakes, InRepeats) {
               HasSubstr("starts as Poses and Metrics and is carried on as Matches, one per edge."));
   EXPECT_THAT(told_with("carry: {poses: solved}", "carry: {poses: drift.solved}"),
               HasSubstr("carried on from a step of the body"));
+  EXPECT_THAT(told_with("carry: {poses: solved}", "carry: {poses: poses}"),
+              HasSubstr("carried on from a step of the body, and 'poses' is none."));
   EXPECT_THAT(told_with("carry: {poses: solved}", "carry: {poses: solved, more: solved}"),
               HasSubstr("'start' does not say what it is"));
   EXPECT_THAT(told_with("start: {poses: drift.solved}", "start: {poses: coarse.solved}"),

@@ -1,8 +1,8 @@
 #include "plumb/pipeline/reader.hpp"
 
-#include "plumb/pipeline/bind/draft.hpp"
-#include "plumb/pipeline/check/checks.hpp"
-#include "plumb/pipeline/print/resolved.hpp"
+#include <memory>
+
+#include "plumb/pipeline/plan_of.hpp"
 #include "plumb/pipeline/yaml/load.hpp"
 
 namespace plumb {
@@ -11,35 +11,22 @@ using namespace pipeline;
 
 namespace {
 
-/// `judged`: the text was made of a pipeline that was checked, so that what nothing uses was left
-/// so on purpose.
-Plan plan_of(Loaded loaded, const Overlay& overlay, bool judged, const Registry& registry,
-             Renamer& names, Diagnostics& diagnostics) {
-  Draft draft{.registry = registry,
-              .diagnostics = diagnostics,
-              .names = names,
-              .tree = std::move(loaded.tree),
-              .referenced = std::move(loaded.referenced),
-              .open = overlay.open};
-  draft.plan.files = std::move(loaded.files);
-  read_settings(draft);
-  read_steps(draft);
-  read_parameters(draft);
-  read_wires(draft);
-  read_conditions(draft);
-  if (!judged) find_unused(draft);
+/// Stage after stage; each gives a value that nobody changes, and takes those of the stages before.
+/// `judged`: the text was made of a pipeline that was checked (check_unused).
+Plan compiled(Loaded tree, const Overlay& overlay, bool judged, const Registry& registry,
+              Renamer& names, Diagnostics& diagnostics) {
+  auto loaded = std::make_shared<const Loaded>(std::move(tree));
+  const Declared declared = declare(std::move(loaded), overlay.open, registry, names, diagnostics);
+  const Bound bound = bind(declared, names, diagnostics);
+  check_unused(bound, judged, diagnostics);
   if (overlay.untrusted)
-    find_foreign_paths(draft);
+    check_foreign_paths(bound, diagnostics);
   else if (overlay.needs_files)
-    find_missing_files(draft);
-  find_order(draft);
-  find_domains(draft);
+    check_missing_files(bound, diagnostics);
+  const Order order = order_of(bound, diagnostics);
+  const Domains domains = domains_of(bound, order, diagnostics);
   diagnostics.raise();
-
-  rewrite(draft);
-  draft.plan.renamings = names.noted();
-  draft.plan.resolved = resolved_text(draft);
-  return std::move(draft.plan);
+  return plan_of(bound, order, domains, names.noted());
 }
 
 }  // namespace
@@ -50,7 +37,7 @@ Plan read_pipeline(const std::filesystem::path& file, const Overlay& overlay,
   Renamer names(former, registry, diagnostics);
   auto loaded = load_pipeline(file, overlay, names, diagnostics);
   if (!loaded) diagnostics.raise();
-  return plan_of(std::move(*loaded), overlay, false, registry, names, diagnostics);
+  return compiled(std::move(*loaded), overlay, false, registry, names, diagnostics);
 }
 
 Plan read_resolved(const std::string& text, const std::string& name, const Registry& registry,
@@ -62,7 +49,7 @@ Plan read_resolved(const std::string& text, const std::string& name, const Regis
   names.read_pipeline(*tree);
   Overlay overlay;
   overlay.needs_files = true;
-  return plan_of({std::move(*tree), {name}, {}}, overlay, true, registry, names, diagnostics);
+  return compiled({std::move(*tree), {name}, {}}, overlay, true, registry, names, diagnostics);
 }
 
 }  // namespace plumb

@@ -1,110 +1,87 @@
 /// Binds the ports of every step: by name, or the one port that fits.
 #include <algorithm>
 
-#include "plumb/pipeline/bind/draft.hpp"
+#include "plumb/pipeline/bind/binding.hpp"
+#include "plumb/pipeline/bind/fitting.hpp"
 
 namespace plumb::pipeline {
 namespace {
 
-/// Which grains an input takes: item kinds, or null for one value of the pipeline. None: any kind.
-std::vector<const ItemKind*> grains_for(const StepDescription& step,
-                                        const InputDescription& input) {
-  switch (input.access) {
-    case Access::ends:
-      return {step.items ? find_kind(step.items->ends) : nullptr};
-    case Access::each:
-      if (!step.items) return {};
-      return {find_kind(step.items->parts)};
-    case Access::several:
-    case Access::part:
-      return {nullptr};
-    case Access::item:
-      break;
-  }
-  if (!step.items || !input.type->kind) return {nullptr};
-  return {step.items, nullptr};
-}
-
-bool fits(const StepDescription& step, const InputDescription& input, const Source& source) {
-  if (source.type != input.type) return false;
-  const auto grains = grains_for(step, input);
-  if (grains.empty()) return source.grain != nullptr;
-  return std::find(grains.begin(), grains.end(), source.grain) != grains.end();
-}
-
-/// "Features, one per segment": what a port wants.
-std::string wanted(const StepDescription& step, const InputDescription& input) {
-  const auto grains = grains_for(step, input);
-  const bool own =
-      grains.empty() || std::find(grains.begin(), grains.end(), input.type->kind) != grains.end();
-  std::string text = kind_of(*input.type, own ? input.type->kind : grains.front());
-  if (input.access == Access::several) text += ", any number of them";
-  return text;
-}
+using Inputs = std::vector<std::vector<OrFaulty<Wire>>>;
 
 class Binder {
  public:
-  Binder(Draft& draft, int step)
-      : draft_(draft),
-        step_(step),
-        scope_(draft.steps[step].scope),
-        planned_(draft.plan.steps[step]),
-        title_(draft.title(step)) {}
+  Binder(const Declared& declared, int index, References& references, Reading& reading)
+      : declared_(declared),
+        index_(index),
+        step_(declared.steps[index]),
+        references_(references),
+        reading_(reading) {}
 
-  void bind() {
-    const Node* from = draft_.steps[step_].node->at("from");
-    if (!planned_.description) {
+  Inputs bind() {
+    const Node* from = step_.node->at("from");
+    if (!step_.use) {
       if (from) mark(*from);
-      return;
+      return {};
     }
+    inputs_.resize(ports().size());
     if (from && from->is_map())
       bind_ports(*from);
     else if (from && from->is_list())
       bind_list(*from);
     else if (from)
       bind_one(*from);
-    for (std::size_t k = 0; k < planned_.inputs.size(); ++k) {
-      const InputDescription& input = planned_.description->inputs[k];
-      if (!planned_.inputs[k].empty() || input.optional || faulty_ || draft_.steps[step_].misspelt)
-        continue;
-      draft_.fault(planned_.origin,
-                   title_ + ": its input '" + input.name + "' is not wired, it wants " +
-                       wanted(step(), input) + ".",
-                   candidates(input));
-    }
+    for (std::size_t k = 0; k < inputs_.size(); ++k)
+      if (inputs_[k].empty() && !ports()[k].optional) lacks(k);
+    return std::move(inputs_);
   }
 
  private:
-  const StepDescription& step() const { return *planned_.description; }
+  const StepDescription& description() const { return *step_.use->description; }
+  const std::vector<InputDescription>& ports() const { return description().inputs; }
+
+  void lacks(std::size_t index) {
+    const InputDescription& input = ports()[index];
+    inputs_[index].push_back(Faulty());
+    if (faulty_ || step_.misspelt) return;
+    reading_.fault(step_.origin,
+                   step_.title() + ": its input '" + input.name + "' is not wired, it wants " +
+                       wanted(description(), input) + ".",
+                   candidates(input));
+  }
 
   /// Of a step that no module offers: what it refers to counts as used.
   void mark(const Node& from) {
     for (const Node& item : from.items) mark(item);
     for (const Entry& entry : from.entries) mark(entry.value);
     if (!from.is_scalar()) return;
-    const auto sources = sources_of(draft_, scope_, from);
+    const auto sources = references_.sources(step_.scope, from);
     if (sources && sources->size() == 1)
-      choose(draft_, sources->front());
+      references_.choose(sources->front());
     else if (sources)
-      for (const Source& source : *sources)
-        if (source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
+      mark(*sources);
+  }
+  void mark(const std::vector<Source>& sources) {
+    for (const Source& source : sources)
+      if (source.wire.step >= 0) reading_.uses.steps.insert(source.wire.step);
   }
 
-  std::vector<std::string> ports() const {
+  std::vector<std::string> names_of_ports() const {
     std::vector<std::string> names;
-    for (const InputDescription& input : planned_.description->inputs) names.push_back(input.name);
+    names.reserve(ports().size());
+    for (const InputDescription& input : ports()) names.push_back(input.name);
     return names;
   }
 
   /// Steps in sight that would fit a port.
   std::string candidates(const InputDescription& input) const {
     std::vector<std::string> names;
-    for (int scope = scope_; scope >= 0; scope = draft_.scopes[scope].parent) {
-      for (const auto& [name, symbol] : draft_.scopes[scope].names) {
-        if (symbol.kind != Symbol::Kind::step || symbol.index == step_) continue;
-        const StepDescription* other = draft_.plan.steps[symbol.index].description;
-        if (other && std::any_of(other->outputs.begin(), other->outputs.end(),
-                                 [&](const auto& o) { return o.type == input.type; }))
+    for (int scope = step_.scope; scope >= 0; scope = declared_.scopes[scope].parent) {
+      for (const auto& [name, symbol] : declared_.scopes[scope].names) {
+        if (!symbol || symbol->kind != Symbol::Kind::step || symbol->index == index_) continue;
+        const auto& use = declared_.steps[symbol->index].use;
+        if (use && std::any_of(use->description->outputs.begin(), use->description->outputs.end(),
+                               [&](const auto& o) { return o.type == input.type; }))
           names.push_back(name);
       }
     }
@@ -114,77 +91,87 @@ class Binder {
 
   void fault(const Node& at, const std::string& sentence, const std::string& hint = "") {
     faulty_ = true;
-    draft_.fault(at.origin, title_ + ": " + sentence, hint);
+    reading_.fault(at.origin, step_.title() + ": " + sentence, hint);
+  }
+  /// A reference to a port that cannot be followed.
+  void give_up(std::size_t port) {
+    faulty_ = true;
+    inputs_[port].push_back(Faulty());
   }
 
   void bind_one(const Node& from) {
-    const auto sources = sources_of(draft_, scope_, from);
+    const auto sources = references_.sources(step_.scope, from);
     if (!sources) return void(faulty_ = true);
     std::vector<std::pair<std::size_t, const Source*>> fitting;
-    const auto& inputs = planned_.description->inputs;
-    for (std::size_t k = 0; k < inputs.size(); ++k)
+    for (std::size_t k = 0; k < ports().size(); ++k)
       for (const Source& source : *sources)
-        if (fits(step(), inputs[k], source)) fitting.emplace_back(k, &source);
+        if (fits(description(), ports()[k], source)) fitting.emplace_back(k, &source);
     // `from: STEP` feeds a step's own input, not the scale of its lengths (Declaration::scale),
     // which is named where it is meant.
     std::erase_if(fitting, [&](const auto& fit) {
-      return inputs[fit.first].optional && inputs[fit.first].name == "scale";
+      return ports()[fit.first].optional && ports()[fit.first].name == "scale";
     });
-    std::string gives;
-    for (const Source& source : *sources) {
-      gives += (gives.empty() ? "" : " and ") + kind_of(*source.type, source.grain);
-      if (fitting.size() != 1 && source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
-    }
-    if (fitting.size() == 1) {
-      wire(fitting[0].first, *fitting[0].second);
-    } else if (fitting.empty()) {
-      std::vector<std::string> want;
-      want.reserve(inputs.size());
-      for (const InputDescription& input : inputs)
-        want.push_back("'" + input.name + "' [" + wanted(step(), input) + "]");
-      fault(from, "'" + from.text + "' gives " + gives + ", which fits none of its inputs.",
-            want.empty() ? "It has none." : "Inputs: " + joined(want) + ".");
-    } else {
-      std::vector<std::string> which;
-      for (const auto& [k, source] : fitting) {
-        std::string text = inputs[k].name + ": " + from.text;
-        if (source->wire.step >= 0 && sources->size() > 1)
-          text +=
-              "." +
-              draft_.plan.steps[source->wire.step].description->outputs[source->wire.output].name;
-        which.push_back(text);
+    if (fitting.size() == 1) return wire(fitting[0].first, *fitting[0].second);
+    mark(*sources);
+    if (!fitting.empty()) return ambiguous(from, fitting, sources->size() > 1);
+    std::vector<std::string> want;
+    want.reserve(ports().size());
+    for (const InputDescription& input : ports())
+      want.push_back("'" + input.name + "' [" + wanted(description(), input) + "]");
+    fault(
+        from,
+        "'" + from.text + "' gives " + what_is_given(*sources) + ", which fits none of its inputs.",
+        want.empty() ? "It has none." : "Inputs: " + joined(want) + ".");
+  }
+
+  void ambiguous(const Node& from,
+                 const std::vector<std::pair<std::size_t, const Source*>>& fitting,
+                 bool of_several) {
+    std::vector<std::string> which;
+    for (const auto& [k, source] : fitting) {
+      std::string text = ports()[k].name + ": " + from.text;
+      if (source->wire.step >= 0 && of_several) {
+        const Use& giver = *declared_.steps[source->wire.step].use;
+        text += "." + giver.description->outputs[source->wire.output].name;
       }
-      fault(from, "'" + from.text + "' fits in more than one way.",
-            "Name the input: {" + joined(which, "} or {") + "}.");
+      which.push_back(text);
     }
+    fault(from, "'" + from.text + "' fits in more than one way.",
+          "Name the input: {" + joined(which, "} or {") + "}.");
+  }
+
+  static std::string what_is_given(const std::vector<Source>& sources) {
+    std::string gives;
+    for (const Source& source : sources)
+      gives += (gives.empty() ? "" : " and ") + kind_of(*source.type, source.grain);
+    return gives;
   }
 
   /// A list serves the one input that takes several.
   void bind_list(const Node& from) {
     std::vector<std::size_t> several;
-    for (std::size_t k = 0; k < planned_.inputs.size(); ++k)
-      if (planned_.description->inputs[k].access == Access::several) several.push_back(k);
+    for (std::size_t k = 0; k < ports().size(); ++k)
+      if (ports()[k].access == Access::several) several.push_back(k);
     if (several.size() == 1) return bind_several(several[0], from);
     mark(from);
     fault(from,
           several.empty() ? "none of its inputs takes a list."
                           : "more than one of its inputs takes a list.",
-          "Name the inputs: " + joined(ports()) + ".");
+          "Name the inputs: " + joined(names_of_ports()) + ".");
   }
 
   void bind_ports(const Node& from) {
     for (const Entry& entry : from.entries) {
-      const auto& inputs = planned_.description->inputs;
-      const auto input = std::find_if(inputs.begin(), inputs.end(),
+      const auto input = std::find_if(ports().begin(), ports().end(),
                                       [&](const auto& i) { return i.name == entry.key; });
-      if (input == inputs.end()) {
+      if (input == ports().end()) {
         faulty_ = true;
-        draft_.fault(entry.origin, title_ + ": it has no input '" + entry.key + "'.",
-                     did_you_mean(entry.key, ports()));
+        reading_.fault(entry.origin, step_.title() + ": it has no input '" + entry.key + "'.",
+                       did_you_mean(entry.key, names_of_ports()));
         mark(entry.value);
         continue;
       }
-      const auto index = static_cast<std::size_t>(input - inputs.begin());
+      const auto index = static_cast<std::size_t>(input - ports().begin());
       if (input->access == Access::several && !entry.value.is_scalar())
         bind_several(index, entry.value);
       else
@@ -200,22 +187,19 @@ class Binder {
   }
 
   void bind_port(std::size_t index, const Node& reference, const std::string& label = "") {
-    const InputDescription& input = planned_.description->inputs[index];
-    const auto sources = sources_of(draft_, scope_, reference);
-    if (!sources) return void(faulty_ = true);
+    const InputDescription& input = ports()[index];
+    const auto sources = references_.sources(step_.scope, reference);
+    if (!sources) return give_up(index);
     std::vector<const Source*> fitting;
-    std::string gives;
-    for (const Source& source : *sources) {
-      if (fits(step(), input, source)) fitting.push_back(&source);
-      gives += (gives.empty() ? "" : " and ") + kind_of(*source.type, source.grain);
-    }
-    if (fitting.size() == 1) return wire(index, *fitting[0], label);
     for (const Source& source : *sources)
-      if (source.wire.step >= 0) draft_.steps[source.wire.step].used = true;
+      if (fits(description(), input, source)) fitting.push_back(&source);
+    if (fitting.size() == 1) return wire(index, *fitting[0], label);
+    mark(*sources);
+    give_up(index);
     if (fitting.empty())
       fault(reference,
-            "its input '" + input.name + "' wants " + wanted(step(), input) + ", but '" +
-                reference.text + "' gives " + gives + ".",
+            "its input '" + input.name + "' wants " + wanted(description(), input) + ", but '" +
+                reference.text + "' gives " + what_is_given(*sources) + ".",
             candidates(input));
     else
       fault(reference,
@@ -225,30 +209,36 @@ class Binder {
 
   /// Without a label it is what the source is called.
   void wire(std::size_t input, const Source& source, const std::string& given = "") {
-    if (!choose(draft_, source)) return void(faulty_ = true);
-    const std::string& label = given.empty() ? source.wire.label : given;
-    auto& wires = planned_.inputs[input];
-    for (const Wire& other : wires)
-      if (other.label == label) {
-        faulty_ = true;
-        return draft_.fault(source.wire.origin, title_ + ": '" + label + "' is there twice.",
-                            "Label them: {label: step}.");
+    if (!references_.choose(source)) return give_up(input);
+    Wire labelled = source.wire;
+    if (!given.empty()) labelled.label = given;
+    for (const OrFaulty<Wire>& other : inputs_[input])
+      if (other && other->label == labelled.label) {
+        give_up(input);
+        return reading_.fault(labelled.origin,
+                              step_.title() + ": '" + labelled.label + "' is there twice.",
+                              "Label them: {label: step}.");
       }
-    wires.push_back(source.wire);
-    wires.back().label = label;
+    inputs_[input].push_back(std::move(labelled));
   }
 
-  Draft& draft_;
-  int step_, scope_;
-  PlannedStep& planned_;
-  std::string title_;
+  const Declared& declared_;
+  int index_;
+  const DeclaredStep& step_;
+  References& references_;
+  Reading& reading_;
+  Inputs inputs_;
   bool faulty_ = false;  // an input is wrong: which ones are missing cannot be said
 };
 
 }  // namespace
 
-void read_wires(Draft& draft) {
-  for (std::size_t k = 0; k < draft.steps.size(); ++k) Binder(draft, static_cast<int>(k)).bind();
+std::vector<Inputs> inputs_of(const Declared& declared, References& references, Reading& reading) {
+  std::vector<Inputs> all;
+  all.reserve(declared.steps.size());
+  for (std::size_t k = 0; k < declared.steps.size(); ++k)
+    all.push_back(Binder(declared, static_cast<int>(k), references, reading).bind());
+  return all;
 }
 
 }  // namespace plumb::pipeline

@@ -33,91 +33,123 @@ std::string cure(const fs::path& path) {
   return missing == path ? "" : "There is no folder '" + missing.string() + "' either.";
 }
 
-/// Calls `look(step, type, value, origin)` for each value of a path parameter.
-template <class Look>
-void for_each_path(const Plan& plan, const Look& look) {
+/// A value of a step's path parameter.
+struct NamedPath {
+  int step;
+  const ParameterDescription* type;
+  std::string path;
+  Origin origin;
+};
+
+/// Adds the value of a parameter, of one that a row drives each of `row`; those that were left open
+/// are no paths.
+void add_paths(int step, const ParameterDescription& type, const PlannedParameter& parameter,
+               const std::vector<ParameterValue>* row, std::vector<NamedPath>& paths) {
+  const auto add = [&](const ParameterValue& value) {
+    const auto* path = std::get_if<std::string>(&value);
+    if (path && !path->empty()) paths.push_back({step, &type, *path, parameter.origin});
+  };
+  if (type.kind != ParameterKind::path) return;
+  if (!row) return add(parameter.value);
+  for (const ParameterValue& value : *row) add(value);
+}
+
+std::vector<NamedPath> paths_of(const Bound& bound) {
+  std::vector<NamedPath> paths;
+  for (std::size_t k = 0; k < bound.steps.size(); ++k) {
+    if (!bound.steps[k]) continue;
+    const BoundStep& step = *bound.steps[k];
+    for (std::size_t p = 0; p < step.parameters.size(); ++p) {
+      if (!step.parameters[p]) continue;
+      const PlannedParameter& parameter = *step.parameters[p];
+      const bool driven = parameter.row >= 0;
+      add_paths(static_cast<int>(k), step.description->parameters[p], parameter,
+                driven ? &bound.repeats[parameter.repeat].rows[parameter.row].values : nullptr,
+                paths);
+    }
+  }
+  return paths;
+}
+
+std::vector<NamedPath> paths_of(const Plan& plan) {
+  std::vector<NamedPath> paths;
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const PlannedStep& step = plan.steps[k];
     for (std::size_t p = 0; p < step.parameters.size(); ++p) {
-      const ParameterDescription& type = step.description->parameters[p];
       const PlannedParameter& parameter = step.parameters[p];
-      if (type.kind != ParameterKind::path) continue;
-      if (parameter.row < 0)
-        look(static_cast<int>(k), type, parameter.value, parameter.origin);
-      else
-        for (const auto& value : plan.repeats[parameter.repeat].rows[parameter.row].values)
-          look(static_cast<int>(k), type, value, parameter.origin);
+      const bool driven = parameter.row >= 0;
+      add_paths(static_cast<int>(k), step.description->parameters[p], parameter,
+                driven ? &plan.repeats[parameter.repeat].rows[parameter.row].values : nullptr,
+                paths);
     }
   }
+  return paths;
 }
 
 bool from_command_line(const Origin& origin) { return origin.file.starts_with("--set "); }
 
-class MissingFiles {
- public:
-  MissingFiles(Draft& draft, bool untrusted) : draft_(draft), untrusted_(untrusted) {
-    if (untrusted) given_ = given_paths(draft.plan);
-  }
+std::vector<fs::path> given_among(const std::vector<NamedPath>& paths) {
+  std::vector<fs::path> given;
+  for (const NamedPath& named : paths)
+    if (from_command_line(named.origin)) given.emplace_back(named.path);
+  return given;
+}
 
-  void find() {
-    for_each_path(draft_.plan,
-                  [this](int step, const ParameterDescription& type, const ParameterValue& value,
-                         const Origin& origin) { look(step, type, value, origin); });
-  }
+void tell_foreign(const DeclaredStep& step, const NamedPath& named, Diagnostics& diagnostics) {
+  diagnostics.add(named.origin,
+                  step.title() + ": parameter '" + named.type->name + "': '" + named.path +
+                      "' lies outside of what the command line gives this pipeline to read.",
+                  "Give the path on the command line, as in --set input=DIR; or leave --untrusted "
+                  "out if you trust the pipeline.");
+}
 
- private:
-  /// Told once for a value that several steps take.
-  void look(int step, const ParameterDescription& type, const ParameterValue& value,
-            const Origin& origin) {
-    const auto* path = std::get_if<std::string>(&value);
+void tell_missing(const DeclaredStep& step, const NamedPath& named, Diagnostics& diagnostics) {
+  std::string hint = cure(named.path);
+  const auto add = [&](const std::string& more) {
+    hint += (hint.empty() ? "" : "  ") + more + ".";
+  };
+  if (!named.type->doc.empty()) add("Expected: " + named.type->doc);
+  if (named.origin.line <= 0) add("Asked for at " + step.origin.text());
+  diagnostics.add(named.origin,
+                  step.title() + ": parameter '" + named.type->name +
+                      "': there is no file or folder '" + named.path + "'.",
+                  hint);
+}
+
+void check_paths(const Bound& bound, bool untrusted, Diagnostics& diagnostics) {
+  const std::vector<NamedPath> paths = paths_of(bound);
+  const std::vector<fs::path> given = untrusted ? given_among(paths) : std::vector<fs::path>();
+  std::set<std::string> told;  // origin and path: once for a value that several steps take
+  for (const NamedPath& named : paths) {
+    if (named.origin.file.empty()) continue;
     std::error_code error;
-    if (!path || path->empty() || origin.file.empty()) return;
-    const bool foreign = untrusted_ && !from_command_line(origin) && !io::inside(*path, given_);
-    if (!foreign && fs::exists(*path, error)) return;
-    if (!told_.insert(origin.text() + "\n" + *path).second) return;
-    if (foreign) {
-      draft_.fault(origin,
-                   draft_.title(step) + ": parameter '" + type.name + "': '" + *path +
-                       "' lies outside of what the command line gives this pipeline to read.",
-                   "Give the path on the command line, as in --set input=DIR; or leave --untrusted "
-                   "out if you trust the pipeline.");
-      return;
-    }
-    std::string hint = cure(*path);
-    const auto add = [&](const std::string& more) {
-      hint += (hint.empty() ? "" : "  ") + more + ".";
-    };
-    if (!type.doc.empty()) add("Expected: " + type.doc);
-    if (origin.line <= 0) add("Asked for at " + draft_.plan.steps[step].origin.text());
-    draft_.fault(origin,
-                 draft_.title(step) + ": parameter '" + type.name +
-                     "': there is no file or folder '" + *path + "'.",
-                 hint);
+    const bool foreign =
+        untrusted && !from_command_line(named.origin) && !io::inside(named.path, given);
+    if (!foreign && fs::exists(named.path, error)) continue;
+    if (!told.insert(named.origin.text() + "\n" + named.path).second) continue;
+    const DeclaredStep& step = bound.declared.steps[named.step];
+    if (foreign)
+      tell_foreign(step, named, diagnostics);
+    else
+      tell_missing(step, named, diagnostics);
   }
-
-  Draft& draft_;
-  bool untrusted_;
-  std::vector<fs::path> given_;
-  std::set<std::string> told_;  // origin and path
-};
+}
 
 }  // namespace
 
-void find_missing_files(Draft& draft) { MissingFiles(draft, false).find(); }
-void find_foreign_paths(Draft& draft) { MissingFiles(draft, true).find(); }
+void check_missing_files(const Bound& bound, Diagnostics& diagnostics) {
+  check_paths(bound, false, diagnostics);
+}
+void check_foreign_paths(const Bound& bound, Diagnostics& diagnostics) {
+  check_paths(bound, true, diagnostics);
+}
 
 }  // namespace plumb::pipeline
 
 namespace plumb {
 
 std::vector<std::filesystem::path> given_paths(const Plan& plan) {
-  std::vector<std::filesystem::path> given;
-  pipeline::for_each_path(plan, [&](int, const ParameterDescription&, const ParameterValue& value,
-                                    const Origin& origin) {
-    const auto* path = std::get_if<std::string>(&value);
-    if (path && !path->empty() && pipeline::from_command_line(origin)) given.emplace_back(*path);
-  });
-  return given;
+  return pipeline::given_among(pipeline::paths_of(plan));
 }
 
 }  // namespace plumb

@@ -19,71 +19,75 @@ struct Level {
   std::vector<Item> items;
 };
 
-class Order {
+class Levels {
  public:
-  explicit Order(Draft& draft)
-      : draft_(draft),
-        levels_(draft.repeats.size() + 1),
-        of_step_(draft.steps.size()),
-        of_repeat_(draft.repeats.size()) {
-    for (std::size_t k = 0; k < draft.steps.size(); ++k) {
-      auto& items = level(draft.steps[k].repeat).items;
+  Levels(const Bound& bound, Diagnostics& diagnostics)
+      : declared_(bound.declared),
+        diagnostics_(diagnostics),
+        levels_(declared_.repeats.size() + 1),
+        of_step_(declared_.steps.size()),
+        of_repeat_(declared_.repeats.size()) {
+    for (std::size_t k = 0; k < declared_.steps.size(); ++k) {
+      const DeclaredStep& step = declared_.steps[k];
+      auto& items = level(step.repeat).items;
       of_step_[k] = static_cast<int>(items.size());
-      items.push_back({{static_cast<int>(k), -1},
-                       draft.steps[k].sequence,
-                       {},
-                       {},
-                       draft.plan.steps[k].origin,
-                       draft.plan.steps[k].path});
+      items.push_back({{static_cast<int>(k), -1}, step.sequence, {}, {}, step.origin, step.path});
     }
-    for (std::size_t k = 0; k < draft.repeats.size(); ++k) {
-      auto& items = level(draft.repeats[k].parent).items;
+    for (std::size_t k = 0; k < declared_.repeats.size(); ++k) {
+      const DeclaredRepeat& repeat = declared_.repeats[k];
+      auto& items = level(repeat.parent).items;
       of_repeat_[k] = static_cast<int>(items.size());
-      items.push_back({{-1, static_cast<int>(k)},
-                       draft.repeats[k].sequence,
-                       {},
-                       {},
-                       draft.plan.repeats[k].origin,
-                       draft.plan.repeats[k].path});
+      items.push_back(
+          {{-1, static_cast<int>(k)}, repeat.sequence, {}, {}, repeat.origin, repeat.path});
     }
+    connect_all(bound);
   }
 
-  void find() {
-    for (std::size_t k = 0; k < draft_.steps.size(); ++k)
-      for (const auto& wires : draft_.plan.steps[k].inputs)
-        for (const Wire& wire : wires) connect(wire, draft_.steps[k].repeat, of_step_[k]);
-    for (std::size_t k = 0; k < draft_.repeats.size(); ++k)
-      for (const PlannedCarry& carry : draft_.plan.repeats[k].carries)
-        connect(carry.start, draft_.repeats[k].parent, of_repeat_[k]);
-    draft_.plan.order = sorted(level(-1));
-    for (std::size_t k = 0; k < draft_.repeats.size(); ++k)
-      draft_.plan.repeats[k].body = sorted(level(static_cast<int>(k)));
+  Order order() const {
+    Order order{sorted(level(-1)), {}};
+    order.bodies.reserve(declared_.repeats.size());
+    for (std::size_t k = 0; k < declared_.repeats.size(); ++k)
+      order.bodies.push_back(sorted(level(static_cast<int>(k))));
+    return order;
   }
 
  private:
   Level& level(int repeat) { return levels_[repeat + 1]; }
+  const Level& level(int repeat) const { return levels_[repeat + 1]; }
+
+  void connect_all(const Bound& bound) {
+    for (std::size_t k = 0; k < bound.steps.size(); ++k) {
+      if (!bound.steps[k]) continue;
+      for (const auto& wires : bound.steps[k]->inputs)
+        for (const OrFaulty<Wire>& wire : wires)
+          if (wire) connect(*wire, declared_.steps[k].repeat, of_step_[k]);
+    }
+    for (std::size_t k = 0; k < bound.repeats.size(); ++k)
+      for (const OrFaulty<PlannedCarry>& carry : bound.repeats[k].carries)
+        if (carry) connect(carry->start, declared_.repeats[k].parent, of_repeat_[k]);
+  }
 
   /// The item that a step belongs to, as seen from a level around it.
   int item_at(int step, int repeat) const {
-    int at = draft_.steps[step].repeat;
+    int at = declared_.steps[step].repeat;
     if (at == repeat) return of_step_[step];
-    while (draft_.repeats[at].parent != repeat) at = draft_.repeats[at].parent;
+    while (declared_.repeats[at].parent != repeat) at = declared_.repeats[at].parent;
     return of_repeat_[at];
   }
 
   /// `item` of level `repeat` needs what `wire` brings: on the innermost level that both lie in.
   void connect(const Wire& wire, int repeat, int item) {
     if (wire.step < 0) return;
-    while (!inside(draft_, draft_.steps[wire.step].repeat, repeat)) {
+    while (!inside(declared_, declared_.steps[wire.step].repeat, repeat)) {
       item = of_repeat_[repeat];
-      repeat = draft_.repeats[repeat].parent;
+      repeat = declared_.repeats[repeat].parent;
     }
     const int from = item_at(wire.step, repeat);
     level(repeat).items[item].needs.insert(from);
     level(repeat).items[from].serves.insert(item);
   }
 
-  std::vector<PlannedItem> sorted(Level& at) {
+  std::vector<PlannedItem> sorted(const Level& at) const {
     std::vector<PlannedItem> order;
     std::set<std::pair<int, int>> ready;  // by sequence: as written, wherever that can be
     std::vector<std::size_t> waiting(at.items.size());
@@ -102,7 +106,7 @@ class Order {
     return order;
   }
 
-  void name_cycle(const Level& at, const std::vector<std::size_t>& waiting) {
+  void name_cycle(const Level& at, const std::vector<std::size_t>& waiting) const {
     int k = 0;
     while (waiting[k] == 0) ++k;
     std::vector<int> walk;
@@ -124,17 +128,20 @@ class Order {
     std::string text;
     for (const int item : walk) text += at.items[item].path + " -> ";
     const auto& item = at.items[walk.front()];
-    draft_.fault(item.origin, "these steps wait for each other: " + text + item.path + ".",
-                 "A loop is a 'repeat' that carries a value from pass to pass.");
+    diagnostics_.add(item.origin, "these steps wait for each other: " + text + item.path + ".",
+                     "A loop is a 'repeat' that carries a value from pass to pass.");
   }
 
-  Draft& draft_;
+  const Declared& declared_;
+  Diagnostics& diagnostics_;
   std::vector<Level> levels_;
   std::vector<int> of_step_, of_repeat_;
 };
 
 }  // namespace
 
-void find_order(Draft& draft) { Order(draft).find(); }
+Order order_of(const Bound& bound, Diagnostics& diagnostics) {
+  return Levels(bound, diagnostics).order();
+}
 
 }  // namespace plumb::pipeline

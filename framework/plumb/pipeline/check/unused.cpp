@@ -22,46 +22,92 @@ std::string left_without_use(const Origin& origin, const std::string& what) {
          "from another --set.";
 }
 
+/// Calls `act(name, setting)` for each parameter of the pipeline that nothing uses.
+template <class Act>
+void for_each_unused_setting(const Bound& bound, const Act& act) {
+  for (const auto& [name, setting] : bound.declared.settings)
+    if (!bound.uses.settings.contains(name)) act(name, setting);
+}
+
+/// Calls `act(row)` for each row of a repeat that nothing uses.
+template <class Act>
+void for_each_unused_row(const Bound& bound, int repeat, const Act& act) {
+  const auto& rows = bound.declared.repeats[repeat].passes.rows;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!bound.uses.rows.contains({repeat, static_cast<int>(k)})) act(rows[k]);
+}
+
+/// Whether an overlay left it without a use: that is no mistake.
+bool was_used(const Bound& bound, const std::string& path) {
+  return bound.declared.loaded->referenced.contains(path);
+}
+
+void check_settings(const Bound& bound, Diagnostics& diagnostics) {
+  for_each_unused_setting(bound, [&](const std::string& name, const Setting& setting) {
+    if (!was_used(bound, name))
+      diagnostics.add(setting.declared, "nothing uses the parameter '" + name + "'.",
+                      "Write $" + name + " where its value belongs, or remove it.");
+  });
+}
+
+void check_rows(const Bound& bound, int index, Diagnostics& diagnostics) {
+  const DeclaredRepeat& repeat = bound.declared.repeats[index];
+  for_each_unused_row(bound, index, [&](const DeclaredRow& row) {
+    if (!was_used(bound, repeat.path + "." + row.name))
+      diagnostics.add(row.origin,
+                      "repeat '" + repeat.path + "': no step uses the row '" + row.name + "'.",
+                      "Write $" + row.name + " in a step of the body, or remove the row.");
+  });
+}
+
+void check_carries(const Bound& bound, int index, Diagnostics& diagnostics) {
+  const DeclaredRepeat& repeat = bound.declared.repeats[index];
+  const auto& carries = repeat.passes.carries;
+  for (std::size_t k = 0; k < carries.size(); ++k)
+    if (!bound.uses.carries.contains({index, static_cast<int>(k)}))
+      diagnostics.add(
+          carries[k].next->origin,
+          "repeat '" + repeat.path + "': no step uses '" + carries[k].name + "', which is carried.",
+          "Wire it to a step of the body, or do not carry it.");
+}
+
+void check_steps(const Bound& bound, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < bound.steps.size(); ++k) {
+    const OrFaulty<BoundStep>& step = bound.steps[k];
+    if (!step || bound.uses.steps.contains(static_cast<int>(k)) ||
+        leaves_something(*step->description))
+      continue;
+    const DeclaredStep& declared = bound.declared.steps[k];
+    diagnostics.add(declared.origin, declared.title() + ": nothing uses what it makes.",
+                    "Wire its output to a step that writes or measures, or remove it.");
+  }
+}
+
 }  // namespace
 
-/// What an overlay or --set left without a use is no mistake; to set it on the command line all the
-/// same is worth a warning.
-void find_unused(Draft& draft) {
-  if (draft.dangling) return;  // it may be what was meant
-  for (const auto& [name, setting] : draft.settings) {
-    if (setting.used) continue;
-    if (!draft.referenced.contains(name))
-      draft.fault(setting.declared, "nothing uses the parameter '" + name + "'.",
-                  "Write $" + name + " where its value belongs, or remove it.");
-    else if (from_command_line(setting.origin))
-      draft.plan.warnings.push_back(left_without_use(setting.origin, "parameter '" + name + "'"));
+void check_unused(const Bound& bound, bool judged, Diagnostics& diagnostics) {
+  if (bound.uses.dangling) return;  // it may be what was meant
+  if (!judged) check_settings(bound, diagnostics);
+  for (std::size_t k = 0; k < bound.repeats.size(); ++k) {
+    if (!judged) check_rows(bound, static_cast<int>(k), diagnostics);
+    check_carries(bound, static_cast<int>(k), diagnostics);
   }
-  for (std::size_t r = 0; r < draft.repeats.size(); ++r) {
-    const PlannedRepeat& repeat = draft.plan.repeats[r];
-    for (std::size_t k = 0; k < repeat.rows.size(); ++k) {
-      const PlannedRow& row = repeat.rows[k];
-      if (draft.repeats[r].rows[k].used) continue;
-      if (!draft.referenced.contains(repeat.path + "." + row.name))
-        draft.fault(row.origin,
-                    "repeat '" + repeat.path + "': no step uses the row '" + row.name + "'.",
-                    "Write $" + row.name + " in a step of the body, or remove the row.");
-      else if (from_command_line(row.origin))
-        draft.plan.warnings.push_back(
-            left_without_use(row.origin, "row '" + repeat.path + "." + row.name + "'"));
-    }
-    for (std::size_t k = 0; k < repeat.carries.size(); ++k)
-      if (!draft.repeats[r].carries[k].used)
-        draft.fault(repeat.carries[k].next.origin,
-                    "repeat '" + repeat.path + "': no step uses '" + repeat.carries[k].name +
-                        "', which is carried.",
-                    "Wire it to a step of the body, or do not carry it.");
-  }
-  for (std::size_t k = 0; k < draft.steps.size(); ++k) {
-    const PlannedStep& step = draft.plan.steps[k];
-    if (draft.steps[k].used || !step.description || leaves_something(*step.description)) continue;
-    draft.fault(step.origin, draft.title(static_cast<int>(k)) + ": nothing uses what it makes.",
-                "Wire its output to a step that writes or measures, or remove it.");
-  }
+  if (!judged) check_steps(bound, diagnostics);
+}
+
+std::vector<std::string> warnings_of(const Bound& bound) {
+  std::vector<std::string> warnings;
+  for_each_unused_setting(bound, [&](const std::string& name, const Setting& setting) {
+    if (setting.value && from_command_line(setting.value->origin))
+      warnings.push_back(left_without_use(setting.value->origin, "parameter '" + name + "'"));
+  });
+  for (std::size_t k = 0; k < bound.repeats.size(); ++k)
+    for_each_unused_row(bound, static_cast<int>(k), [&](const DeclaredRow& row) {
+      if (from_command_line(row.origin))
+        warnings.push_back(left_without_use(
+            row.origin, "row '" + bound.declared.repeats[k].path + "." + row.name + "'"));
+    });
+  return warnings;
 }
 
 }  // namespace plumb::pipeline

@@ -2,8 +2,12 @@
 #include "plumb/pipeline/print/resolved.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "plumb/data/io/plain_text.hpp"
+#include "plumb/pipeline/bind/former.hpp"
+#include "plumb/pipeline/yaml/parts.hpp"
+#include "plumb/pipeline/yaml/value.hpp"
 
 namespace plumb::pipeline {
 namespace {
@@ -72,26 +76,39 @@ std::string flow(const Node& node) {  // NOLINT: as deep as the tree, at most 64
   return text;
 }
 
+/// The step or repeat of that path.
+const Node& node_at(const Node& tree, const std::string& path) {
+  const Node* at = &tree;
+  for (const std::string& name : parts_of(path)) at = at->at("steps")->at(name);
+  return *at;
+}
+
 class Writer {
  public:
-  explicit Writer(const Draft& draft) : draft_(draft) {
-    for (std::size_t k = 0; k < draft.steps.size(); ++k)
-      step_of_[draft.steps[k].node] = static_cast<int>(k);
-    for (const auto& [name, setting] : draft.settings)
-      if (!setting.used) unused_.insert(draft.tree.at("parameters")->at(name));
-    for (std::size_t r = 0; r < draft.repeats.size(); ++r)
-      for (std::size_t k = 0; k < draft.repeats[r].rows.size(); ++k)
-        if (!draft.repeats[r].rows[k].used)
-          unused_.insert(draft.repeats[r].node->at("repeat")->at("passes")->at(
-              draft.plan.repeats[r].rows[k].name));
+  explicit Writer(const Bound& bound)
+      : bound_(bound), tree_(tree_of_now(bound.declared.loaded->tree, bound.now)) {
+    const Declared& declared = bound.declared;
+    for (std::size_t k = 0; k < declared.steps.size(); ++k)
+      step_of_[&node_at(tree_, declared.steps[k].path)] = static_cast<int>(k);
+    for (const auto& [name, setting] : declared.settings)
+      if (!bound.uses.settings.contains(name)) unused_.insert(tree_.at("parameters")->at(name));
+    for (std::size_t r = 0; r < declared.repeats.size(); ++r) note_unused_rows(static_cast<int>(r));
   }
 
   std::string write() {
-    map(draft_.tree, 0);
+    map(tree_, 0);
     return std::move(text_);
   }
 
  private:
+  void note_unused_rows(int repeat) {
+    const DeclaredRepeat& declared = bound_.declared.repeats[repeat];
+    const auto& rows = declared.passes.rows;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (!bound_.uses.rows.contains({repeat, static_cast<int>(k)}))
+        unused_.insert(node_at(tree_, declared.path).at("repeat")->at("passes")->at(rows[k].name));
+  }
+
   void line(int depth, const std::string& content, const std::string& comment) {
     text_ += std::string(2 * depth, ' ') + content;
     if (!comment.empty()) {
@@ -123,7 +140,7 @@ class Writer {
       }
     }
     if (step != step_of_.end() && !node.at("with") &&
-        !draft_.plan.steps[step->second].parameters.empty()) {
+        !bound_.steps[step->second].value().parameters.empty()) {
       line(depth, "with:", "");
       parameters({}, step->second, depth + 1);
     }
@@ -147,10 +164,10 @@ class Writer {
 
   /// A step's parameters, those at their defaults too, in the order declared.
   void parameters(const Node& with, int index, int depth) {
-    const PlannedStep& step = draft_.plan.steps[index];
+    const BoundStep& step = bound_.steps[index].value();
     for (std::size_t k = 0; k < step.parameters.size(); ++k) {
       const ParameterDescription& description = step.description->parameters[k];
-      const PlannedParameter& planned = step.parameters[k];
+      const PlannedParameter& planned = step.parameters[k].value();
       const Node* node = with.at(description.name);
       if (!node) {
         const bool is_text = description.kind == ParameterKind::text ||
@@ -175,7 +192,8 @@ class Writer {
   }
 
   static constexpr const char* nothing_uses_it = "nothing uses it any more";
-  const Draft& draft_;
+  const Bound& bound_;
+  const Node tree_;  ///< by the names of now
   std::map<const Node*, int> step_of_;
   std::set<const Node*> unused_;  ///< parameters and rows that an overlay left without a use
   std::string text_;
@@ -183,6 +201,6 @@ class Writer {
 
 }  // namespace
 
-std::string resolved_text(const Draft& draft) { return Writer(draft).write(); }
+std::string resolved_text(const Bound& bound) { return Writer(bound).write(); }
 
 }  // namespace plumb::pipeline

@@ -1,10 +1,13 @@
 #pragma once
 /// The pipeline that results, as YAML, each value with the place that it came from.
 
-#include "plumb/pipeline/bind/draft.hpp"
+#include <string>
+
+#include "plumb/pipeline/bind/bound.hpp"
 
 namespace plumb::pipeline {
 
-std::string resolved_text(const Draft& draft);
+/// By the names of now. Throws std::logic_error when something is faulty.
+std::string resolved_text(const Bound& bound);
 
 }  // namespace plumb::pipeline
