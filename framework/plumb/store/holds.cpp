@@ -66,6 +66,13 @@ bool Holds::has(const Hash128& key) const {
   return keys_.contains(key);
 }
 
+bool Holds::unless_held(const Hash128& key, const std::function<void()>& action) const {
+  const std::lock_guard lock(mutex_);
+  if (keys_.contains(key)) return false;
+  action();
+  return true;
+}
+
 fs::path Holds::file() const {
   const std::lock_guard lock(mutex_);
   return file_;

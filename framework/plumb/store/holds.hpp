@@ -3,6 +3,7 @@
 /// another one needs.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <span>
@@ -29,6 +30,9 @@ class Holds {
   /// Asked before a result is opened or written.
   void add(std::span<const Hash128> keys);
   bool has(const Hash128& key) const;
+  /// Does what follows when this run does not need a result; until it is done no key is added.
+  /// False when the run needs it.
+  bool unless_held(const Hash128& key, const std::function<void()>& action) const;
   std::filesystem::path file() const;
 
  private:
