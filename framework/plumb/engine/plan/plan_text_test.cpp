@@ -5,17 +5,18 @@
 
 #include <filesystem>
 #include <fstream>
-#include <list>
 
 #include "plumb/engine/plan/depth.hpp"
 #include "plumb/engine/plan/level.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
+#include "plumb/engine/testing/drawn_plan.hpp"
 #include "plumb/engine/testing/test_steps.hpp"
 #include "plumb/pipeline/reader.hpp"
 
 namespace plumb {
 namespace {
 
+using engine_test::DrawnPlan;
 using engine_test::FrameRange, engine_test::Segment, engine_test::SegmentStep;
 using testing::ElementsAre, testing::HasSubstr, testing::Not;
 
@@ -152,36 +153,8 @@ TEST_F(OfAPlan, ItemsOfAStepThatOccursAgainAreRemembered) {
   EXPECT_EQ(lifetime(plan, "kept"), "passing: frames are transient");
 }
 
-/// Steps that draw on others, by their numbers, each of a kind of its own.
-struct Drawn {
-  std::list<StepDescription> descriptions;
-  Plan plan;
-
-  void add(const std::vector<int>& from) {
-    descriptions.emplace_back().inputs.resize(1);
-    PlannedStep step;
-    step.path = std::to_string(plan.steps.size());
-    step.description = &descriptions.back();
-    step.inputs.resize(1);
-    for (const int s : from) step.inputs[0].emplace_back().step = s;
-    plan.steps.push_back(std::move(step));
-  }
-  /// Both are of one kind, whose parameter is 1 of `other`.
-  void make_alike(int step, int other, std::int64_t value) {
-    StepDescription& kind = descriptions.emplace_back();
-    kind.inputs.resize(1);
-    kind.parameters.emplace_back().name = "n";
-    for (const int s : {step, other}) {
-      plan.steps[s].description = &kind;
-      plan.steps[s].parameters.resize(1);
-    }
-    plan.steps[step].parameters[0].value = value;
-    plan.steps[other].parameters[0].value = std::int64_t{1};
-  }
-};
-
 TEST(Depths, CountTheLongestPathWithinALevelAlsoThroughWhatARepeatHolds) {
-  Drawn drawn;
+  DrawnPlan drawn;
   drawn.add({});      // 0
   drawn.add({0});     // 1, in the repeat 0
   drawn.add({1});     // 2, in the repeat 1, in the repeat 0
@@ -199,7 +172,7 @@ TEST(Depths, CountTheLongestPathWithinALevelAlsoThroughWhatARepeatHolds) {
 }
 
 TEST(Level, WaitsForWhatItDrawsOnAndForWhatMayGiveTheSame) {
-  Drawn drawn;
+  DrawnPlan drawn;
   drawn.add({});      // 0
   drawn.add({0});     // 1
   drawn.add({0});     // 2, in the repeat 0

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <list>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <random>
@@ -13,27 +13,14 @@
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/engine/testing/drawn_plan.hpp"
 
 namespace plumb {
 namespace {
 
+using engine_test::DrawnPlan;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
-
-/// Steps that draw on others, by their numbers, each of a kind of its own, in one input each.
-struct Drawn {
-  std::list<StepDescription> descriptions;
-  Plan plan;
-
-  void add(const std::vector<int>& from) {
-    descriptions.emplace_back().inputs.resize(1);
-    PlannedStep step;
-    step.description = &descriptions.back();
-    step.inputs.resize(1);
-    for (const int s : from) step.inputs[0].emplace_back().step = s;
-    plan.steps.push_back(std::move(step));
-  }
-};
 
 /// Notes what it is told, in order, and lets a step do what a test wants.
 class Noted final : public Work {
@@ -71,7 +58,7 @@ class Noted final : public Work {
 /// 0, then a repeat of 1 and 2, in which 2 lies in a repeat of its own, then 3, which waits for 0
 /// alone.
 struct Nested : testing::Test {
-  Drawn drawn;
+  DrawnPlan drawn;
   Noted noted;
   Nested() {
     drawn.add({});
@@ -143,7 +130,7 @@ class Timed final : public Work {
 TEST(Schedule, RunsEachItemOnceAfterAllThatItWaitsFor) {
   std::mt19937 random(7);
   for (int plans = 0; plans < 200; ++plans) {
-    Drawn drawn;
+    DrawnPlan drawn;
     std::vector<std::vector<int>> from(25);
     for (int s = 0; s < 25; ++s) {
       for (int earlier = 0; earlier < s; ++earlier)
