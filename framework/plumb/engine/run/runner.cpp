@@ -11,6 +11,7 @@
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
 #include "plumb/engine/plan/wires.hpp"
+#include "plumb/engine/run/admission.hpp"
 #include "plumb/engine/run/gathered.hpp"
 #include "plumb/engine/run/local_executor.hpp"
 #include "plumb/engine/run/parallel.hpp"
