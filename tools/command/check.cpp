@@ -27,7 +27,7 @@ void add_check(Command& program) {
   auto with_plan = std::make_shared<bool>(false);
   command.add_flag("--plan", *with_plan,
                    "Also print what a run will do, step by step: what one call sees, how long "
-                   "results live and why, which steps could run side by side");
+                   "results live and why, which steps run together");
   command.callback([options, untrusted, with_plan] {
     untrusted->before_reading(*options);
     const Registry steps = untrusted->steps();

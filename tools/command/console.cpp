@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -45,32 +46,37 @@ void Console::clear() {
 
 void Console::draw() {
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || now - drawn_ < std::chrono::milliseconds(80)) return;
+  if (!terminal_ || running_.empty() || now - drawn_ < std::chrono::milliseconds(80)) return;
   drawn_ = now;
+  const Running& first = running_.front();
   constexpr int width = 30;
-  const int filled = items_ ? static_cast<int>(width * done_ / items_) : 0;
-  std::fprintf(stderr, "\r\033[K%-24s [%s%s] %zu/%zu", path_.c_str(),
-               std::string(filled, '#').c_str(), std::string(width - filled, ' ').c_str(), done_,
-               items_);
+  const std::size_t done = std::min(first.done, first.items);
+  const int filled = first.items ? static_cast<int>(width * done / first.items) : 0;
+  std::fprintf(stderr, "\r\033[K%-24s [%s%s] %zu/%zu", first.path.c_str(),
+               std::string(filled, '#').c_str(), std::string(width - filled, ' ').c_str(), done,
+               first.items);
+  if (running_.size() > 1) std::fprintf(stderr, " +%zu", running_.size() - 1);
   std::fflush(stderr);
+}
+
+Console::Running* Console::running(std::string_view step) {
+  const std::string path = io::plain(step);
+  const auto at = std::find_if(running_.begin(), running_.end(),
+                               [&](const Running& one) { return one.path == path; });
+  return at == running_.end() ? nullptr : &*at;
 }
 
 void Console::event(const Event& event) {
   const std::lock_guard lock(mutex_);
   switch (event.kind) {
     case Event::Kind::step_begins:
-      path_ = io::plain(event.step);
-      items_ = event.items;
-      done_ = 0;
+      running_.push_back({io::plain(event.step), event.items, 0});
       return draw();
     case Event::Kind::item:
-      if (io::plain(event.step) == path_)
-        done_ += event.items;  // not of one that passes its items on to this step
+      if (Running* step = running(event.step)) step->done += event.items;
       return draw();
     case Event::Kind::step_ends:
-      clear();
-      return log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration,
-                        path_, items_, items_ == 1 ? " " : "s", event.duration);
+      return end_of(event);
     case Event::Kind::pass_begins:
       clear();
       return log_->info("{}: pass {} of at most {}", io::plain(event.step), event.pass + 1,
@@ -80,6 +86,15 @@ void Console::event(const Event& event) {
     default:
       return;
   }
+}
+
+void Console::end_of(const Event& event) {
+  clear();
+  const Running* step = running(event.step);
+  const std::size_t items = step ? step->items : event.items;
+  log_->info("[{:7.1f} s] {:<28} {:>6} item{}  {:7.2f} s", event.time + event.duration,
+             io::plain(event.step), items, items == 1 ? " " : "s", event.duration);
+  if (step) running_.erase(running_.begin() + (step - running_.data()));
 }
 
 void Console::note(const std::string& sentence) {

@@ -1,11 +1,14 @@
 #pragma once
-/// What a run shows while it goes: a bar on a terminal, plain lines elsewhere.
+/// What a run shows while it goes: a bar on a terminal, plain lines elsewhere. The bar is that of
+/// the step that has run for longest; how many run beside it stands behind.
 
 #include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "plumb/engine/observe/observer.hpp"
 
@@ -29,16 +32,22 @@ class Console final : public Observer {
   std::string log_fault();
 
  private:
+  /// A step that runs.
+  struct Running {
+    std::string path;
+    std::size_t items = 0, done = 0;
+  };
+  Running* running(std::string_view step);  ///< null: it passes its items on to one that runs
+  void end_of(const Event& event);
   void note(const std::string& sentence);
   void draw();
   void clear();
   std::mutex mutex_;
   bool quiet_, terminal_;
   std::shared_ptr<spdlog::logger> log_;
-  std::string log_fault_;  ///< why the log file is not whole
-  std::string path_;
+  std::string log_fault_;             ///< why the log file is not whole
+  std::vector<Running> running_;      ///< in the order in which they began
   std::map<std::string, int> notes_;  ///< how often each kind was told
-  std::size_t items_ = 0, done_ = 0;
   std::chrono::steady_clock::time_point drawn_;
 };
 

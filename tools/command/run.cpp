@@ -262,7 +262,8 @@ void add_run(Command& program) {
                    "differs from the last run");
   command.add_option(
       "--memory", options->memory,
-      "Bound of resident memory, such as 2GiB: what does not fit waits in the cache");
+      "Bound of resident memory, such as 2GiB: what does not fit waits in the cache, and steps run "
+      "one after the other");
   options->executor.add_to(command);
   options->untrusted.add_to(command);
   add_reports(command, *options);

@@ -36,6 +36,37 @@ TEST(Parallel, RethrowsWhatABodyThrew) {
   EXPECT_THROW(run(), Error);
 }
 
+TEST(Parallel, MakesTasksAsLongAsTheyAskForMore) {
+  for (const unsigned threads : {1u, 2u, 8u}) {
+    std::atomic<int> made = 0, looped = 0;
+    with_threads(threads, [&] {
+      run_tasks(3, [&]() -> std::size_t {
+        parallel_for(10, [&](std::size_t) { ++looped; });
+        return ++made <= 100 ? 2 : 0;
+      });
+    });
+    EXPECT_EQ(made, 203);
+    EXPECT_EQ(looped, 2030);
+  }
+  run_tasks(0, []() -> std::size_t { throw Error("there is none"); });
+}
+
+TEST(Parallel, MakesAsManyTasksAtATimeAsThereAreThreads) {
+  std::atomic<int> inside = 0, most = 0;
+  with_threads(2, [&] {
+    run_tasks(50, [&]() -> std::size_t {
+      const int now = ++inside;
+      int before = most;
+      while (now > before && !most.compare_exchange_weak(before, now)) {
+      }
+      parallel_for(20, [](std::size_t) {});
+      --inside;
+      return 0;
+    });
+  });
+  EXPECT_LE(most, 2);
+}
+
 TEST(Results, ForgetsWhatWasNotUsedForLongest) {
   const auto value = [](std::size_t n) {
     StoredResult result;

@@ -68,6 +68,13 @@ bool Holds::has(const Hash128& key) const {
 
 HeldElsewhere Holds::elsewhere() const { return HeldElsewhere(folder_, file()); }
 
+bool Holds::unless_held(const Hash128& key, const std::function<void()>& action) const {
+  const std::lock_guard lock(mutex_);
+  if (keys_.contains(key)) return false;
+  action();
+  return true;
+}
+
 fs::path Holds::file() const {
   const std::lock_guard lock(mutex_);
   return file_;

@@ -3,6 +3,7 @@
 /// another one needs.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <span>
@@ -32,6 +33,9 @@ class Holds {
   bool has(const Hash128& key) const;
   /// Those of all other runs.
   HeldElsewhere elsewhere() const;
+  /// Does what follows when this run does not need a result; until it is done no key is added.
+  /// False when the run needs it.
+  bool unless_held(const Hash128& key, const std::function<void()>& action) const;
   std::filesystem::path file() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -36,6 +37,22 @@ TEST_F(HoldsOfRuns, AreSeenAsTheyAreAdded) {
   later.add({&third, 1});
   EXPECT_TRUE(elsewhere.has(third));
   EXPECT_EQ(fs::file_size(run.file()), 2 * sizeof(Hash128)) << "each key once";
+}
+
+TEST_F(HoldsOfRuns, AreNotAddedWhileWhatIsNotHeldIsRemoved) {
+  Holds run(folder.path(), "17");
+  run.add({&first, 1});
+  EXPECT_FALSE(run.unless_held(first, [] { ADD_FAILURE() << "it is held"; }));
+  std::thread other;
+  bool added_before = true;
+  EXPECT_TRUE(run.unless_held(second, [&] {
+    other = std::thread([&] { run.add({&second, 1}); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    added_before = fs::file_size(runs / "17.0") > sizeof(Hash128);
+  }));
+  other.join();
+  EXPECT_FALSE(added_before);
+  EXPECT_TRUE(run.has(second));
 }
 
 TEST_F(HoldsOfRuns, AreNoneOfOnesOwnAndNoneOfRunsThatEnded) {

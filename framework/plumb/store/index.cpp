@@ -92,6 +92,7 @@ void Index::set_file_hash(const std::string& path, std::uint64_t size, std::int6
 }
 
 void Index::flush() {
+  const std::lock_guard one_flush(flush_mutex_);
   Notes notes;
   {
     const std::lock_guard lock(notes_mutex_);

@@ -140,6 +140,7 @@ class Index {
   void write(Database& database, const Notes& notes);
 
   std::filesystem::path store_;
+  std::mutex flush_mutex_;  ///< so that what was noted later is written later
   std::mutex notes_mutex_;
   Notes notes_;  ///< what flush() is to write
   std::unique_ptr<IndexFile> file_;

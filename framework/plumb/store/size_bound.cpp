@@ -38,8 +38,11 @@ Trimmed trim(Store& store, std::uint64_t bound, std::uint64_t most) {
   for (const IndexRow& row : rows) {
     if (trimmed.left_bytes <= bound) break;
     if (store.holds()->has(row.key) || elsewhere.has(row.key)) continue;
+    bool removed = false;
+    const auto remove = [&] { removed = store.remove(row.key); };
+    if (!store.holds()->unless_held(row.key, remove)) continue;
     trimmed.left_bytes -= row.bytes;
-    if (!store.remove(row.key)) continue;  // another run was faster
+    if (!removed) continue;  // another run was faster
     ++trimmed.results, trimmed.bytes += row.bytes;
   }
   index->flush();

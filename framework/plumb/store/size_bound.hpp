@@ -27,17 +27,17 @@ struct Trimmed {
 
 /// When a store holds more than `most`, removes results, least recently used first, until it holds
 /// `bound` or less. Never those that a run in progress made or used: this one, by all that was
-/// asked of `store`, or others (holds.hpp). Sizes are those of the index; no file is looked at but
-/// what is removed. Nothing is removed where the index cannot be used.
+/// asked of `store`, also while this goes on, or others (holds.hpp). Sizes are those of the index;
+/// no file is looked at but what is removed. Nothing is removed where the index cannot be used.
 Trimmed trim(Store& store, std::uint64_t bound, std::uint64_t most);
 
-/// Trims the store of a run while that fills it.
+/// Trims the store of a run while that fills it. Asked by one thread at a time.
 class SizeBound {
  public:
   /// Without a store or a bound it does nothing.
   SizeBound(Store* store, std::optional<std::uint64_t> bytes);
 
-  /// Between steps: when the run has kept another eighth of the bound since the store was looked
+  /// After a step: when the run has kept another eighth of the bound since the store was looked
   /// at, and a quarter more than the bound is there.
   void after_step();
   void at_end();  ///< of a run, or of several with one store

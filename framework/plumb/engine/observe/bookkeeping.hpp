@@ -72,7 +72,7 @@ class Bookkeeping {
 
   std::vector<StepCount> counts() const;
   std::vector<std::string> warnings() const;
-  std::vector<StepTime> times() const;  ///< in the order in which steps first ran
+  std::vector<StepTime> times() const;  ///< in the order in which they were first booked
   std::pair<std::size_t, std::size_t> items_of(
       const std::string& path) const;  ///< so far: made, remembered
   void clear();                        ///< forgets all that was collected

@@ -20,7 +20,9 @@ std::string line_of(const Json& json) {
 
 double microseconds(double seconds) { return std::round(1e9 * seconds) / 1e3; }
 
-constexpr int steps_track = 0;  // the worker with number n is on track n + 1
+// The worker with number n is on track n + 1.
+constexpr int steps_track = 0;
+constexpr int more_steps_track = 1'000'000;  ///< and on, of steps that run beside others
 
 }  // namespace
 
@@ -99,7 +101,17 @@ void TraceFile::name_track(int process, int track, const std::string& name) {
                                              : "plumb worker process " + std::to_string(process)}});
   }
   tell("thread_name", {{"name", name}});
-  tell("thread_sort_index", {{"sort_index", track}});
+  const bool of_worker = track > steps_track && track < more_steps_track;
+  tell("thread_sort_index", {{"sort_index", of_worker ? track : track - 2 * more_steps_track}});
+}
+
+/// Spans on one track must not overlap. They are told of in about the order in which they end.
+int TraceFile::track_of_step(double begin, double end) {
+  std::size_t k = 0;
+  while (k < steps_until_.size() && steps_until_[k] > begin) ++k;
+  if (k == steps_until_.size()) steps_until_.push_back(0);
+  steps_until_[k] = end;
+  return k == 0 ? steps_track : more_steps_track + static_cast<int>(k);
 }
 
 void TraceFile::event(const Event& event) {
@@ -107,13 +119,12 @@ void TraceFile::event(const Event& event) {
     return;  // said where they end
   const bool item = event.kind == Kind::item,
              span = item || event.kind == Kind::step_ends || event.kind == Kind::run_ends;
-  const int track = item ? event.worker + 1 : steps_track;
   std::string name(event.step);
   if (event.kind == Kind::run_ends) name = "run";
   if (event.kind == Kind::note) name = event.sentence;
   if (event.kind == Kind::pass_begins) name += ": pass " + std::to_string(event.pass + 1);
-  Json json{{"ph", span ? "X" : "i"}, {"name", name}, {"cat", name_of(event.kind)},
-            {"pid", event.process},   {"tid", track}, {"ts", microseconds(event.time)}};
+  Json json{{"ph", span ? "X" : "i"}, {"name", name},       {"cat", name_of(event.kind)},
+            {"pid", event.process},   {"tid", steps_track}, {"ts", microseconds(event.time)}};
   if (span)
     json["dur"] = microseconds(event.duration);
   else
@@ -126,11 +137,17 @@ void TraceFile::event(const Event& event) {
   if (span && !item) args["items"] = event.items;
   if (!event.sentence.empty()) args["sentence"] = event.sentence;
   json["args"] = std::move(args);
-  const std::string line = line_of(json);
   const std::lock_guard lock(mutex_);
+  const int track = item ? event.worker + 1
+                    : event.kind == Kind::step_ends
+                        ? track_of_step(event.time, event.time + event.duration)
+                        : steps_track;
+  json["tid"] = track;
   name_track(event.process, track,
-             track == steps_track ? "steps" : "worker " + std::to_string(event.worker));
-  add(line);
+             item                   ? "worker " + std::to_string(event.worker)
+             : track == steps_track ? "steps"
+                                    : "steps " + std::to_string(track - more_steps_track + 1));
+  add(line_of(json));
 }
 
 }  // namespace plumb

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "plumb/engine/observe/observer.hpp"
 
@@ -45,8 +46,9 @@ class EventLines final : public EventFile {
   void event(const Event& event) override;
 };
 
-/// `--trace`: Chrome's trace format. Items lie on the track of the thread that made them, steps and
-/// passes on one of their own. The file is JSON once the run has ended.
+/// `--trace`: Chrome's trace format. Items lie on the track of the thread that made them, passes on
+/// one of their own, on which steps lie too; those that run beside others have further ones. The
+/// file is JSON once the run has ended.
 class TraceFile final : public EventFile {
  public:
   static constexpr const char* mark = "{\"plumb\":\"trace of a run\",";
@@ -57,8 +59,10 @@ class TraceFile final : public EventFile {
  private:
   void add(const std::string& object);  ///< mutex_ is held
   void name_track(int process, int track, const std::string& name);
-  std::set<std::pair<int, int>> named_;  ///< process, track
+  int track_of_step(double begin, double end);  ///< mutex_ is held
+  std::set<std::pair<int, int>> named_;         ///< process, track
   std::set<int> processes_;
+  std::vector<double> steps_until_;  ///< by track of steps: the end of what lies on it [s]
   int first_process_ = 0;
   bool first_ = true;  ///< nothing was added yet
 };

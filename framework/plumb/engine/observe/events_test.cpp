@@ -3,7 +3,9 @@
 
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "plumb/data/error.hpp"
 #include "plumb/engine/observe/event_file.hpp"
@@ -149,6 +151,41 @@ TEST_F(Events, MakeATraceWithOneSpanAnItem) {
   }
   EXPECT_EQ(items, heard.of(Kind::item).size());
   EXPECT_GE(named, 2u);  // steps, and a worker or two
+}
+
+TEST_F(Events, OfStepsBesideEachOtherLieOnTracksOfTheirOwn) {
+  {
+    TraceFile trace(folder / "trace.json");
+    const auto ends = [&](const char* step, double begin, double end) {
+      Event event;
+      event.kind = Kind::step_ends;
+      event.step = step;
+      event.time = begin, event.duration = end - begin;
+      event.process = getpid();
+      trace.event(event);
+    };
+    ends("a", 0, 1);
+    ends("b", 1, 3);
+    ends("beside b", 0.5, 4);
+    ends("beside both", 2, 5);
+    ends("c", 3, 6);
+    ends("after b", 4, 7);
+  }
+  const auto json = nlohmann::json::parse(text("trace.json"));
+  std::map<std::string, int> track;
+  std::set<std::string> names;
+  for (const auto& one : json.at("traceEvents")) {
+    const auto name = one.at("name").get<std::string>();
+    if (one.at("ph") == "X") track[name] = one.at("tid").get<int>();
+    if (name == "thread_name") names.insert(one.at("args").at("name").get<std::string>());
+  }
+  EXPECT_EQ(track["a"], track["b"]);
+  EXPECT_EQ(track["a"], track["c"]);
+  EXPECT_EQ(track["beside b"], track["after b"]);
+  EXPECT_NE(track["a"], track["beside b"]);
+  EXPECT_NE(track["a"], track["beside both"]);
+  EXPECT_NE(track["beside b"], track["beside both"]);
+  EXPECT_THAT(names, testing::ElementsAre("steps", "steps 2", "steps 3"));
 }
 
 TEST_F(Events, WriteAnObjectALineAtOnce) {

@@ -40,7 +40,7 @@ struct Event {
 const char* name_of(Event::Kind kind);  ///< "step_begins"
 
 /// Receives events; calls may come from several threads at once. Within a step, step_begins comes
-/// first and step_ends last.
+/// first and step_ends last; steps may run at the same time.
 class Observer {
  public:
   virtual ~Observer() = default;

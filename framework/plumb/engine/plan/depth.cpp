@@ -2,25 +2,23 @@
 
 #include <algorithm>
 
-#include "plumb/engine/plan/wires.hpp"
+#include "plumb/engine/plan/level.hpp"
 
 namespace plumb {
 namespace {
 
-/// Each item of a level stands behind those that it draws on, which are before it in the order.
-void measure(const Plan& plan, const std::vector<PlannedItem>& level, Depths& depths) {
-  std::vector<int> depth_at(plan.steps.size(), 0);  // of the item that a step is or is in, if any
-  for (const PlannedItem& item : level) {
-    int depth = 1;
-    visit_wires(plan, item, [&](int, const Wire& wire, const InputDescription*) {
-      if (wire.step >= 0) depth = std::max(depth, depth_at[wire.step] + 1);
-    });
-    visit_steps(plan, {item}, -1, [&](int step, int) { depth_at[step] = depth; });
-    if (item.step >= 0) {
-      depths.steps[item.step] = depth;
+/// Each item of a level stands behind those that it waits for, which are before it in the order.
+void measure(const Plan& plan, const std::vector<PlannedItem>& items, Depths& depths) {
+  const Level level = level_of(plan, items);
+  std::vector<int> depth(items.size(), 1);
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    for (const std::size_t earlier : level.before[k])
+      depth[k] = std::max(depth[k], depth[earlier] + 1);
+    if (items[k].step >= 0) {
+      depths.steps[items[k].step] = depth[k];
     } else {
-      depths.repeats[item.repeat] = depth;
-      measure(plan, plan.repeats[item.repeat].body, depths);
+      depths.repeats[items[k].repeat] = depth[k];
+      measure(plan, plan.repeats[items[k].repeat].body, depths);
     }
   }
 }

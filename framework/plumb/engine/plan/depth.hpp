@@ -1,5 +1,5 @@
 #pragma once
-/// Which steps of a plan could run side by side.
+/// Which steps of a plan run together.
 
 #include <vector>
 
@@ -7,8 +7,9 @@
 
 namespace plumb {
 
-/// How many steps and repeats the longest path to each has, itself included, within its level: the
-/// pipeline, or the body of a repeat. What has one depth on one level is joined by no path.
+/// How many steps and repeats the longest chain of those that wait for each other has that ends
+/// with each (level.hpp), itself included, within its level: the pipeline, or the body of a repeat.
+/// Of those with one depth on one level none waits for another.
 struct Depths {
   std::vector<int> steps, repeats;  ///< as in Plan
 };

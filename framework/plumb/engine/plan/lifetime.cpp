@@ -1,7 +1,8 @@
 #include "plumb/engine/plan/lifetime.hpp"
 
-#include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "plumb/engine/plan/wires.hpp"
 
@@ -95,23 +96,38 @@ class Lifetimes {
 
 }  // namespace
 
-std::vector<std::size_t> last_uses(const Plan& plan) {
-  std::vector<std::size_t> last(plan.steps.size(), 0);
+std::vector<std::vector<std::size_t>> users_of(const Plan& plan) {
+  const auto lifetimes = keeping_of(plan);
+  std::vector<std::set<std::size_t>> users(plan.steps.size());
+  std::vector<std::pair<int, int>> passing;  // a step whose values pass, and one that it draws on
   for (std::size_t place = 0; place < plan.order.size(); ++place) {
-    visit_steps(plan, {plan.order[place]}, -1,
-                [&](int step, int) { last[step] = std::max(last[step], place); });
-    visit_wires(plan, plan.order[place], [&](int, const Wire& wire, const InputDescription*) {
-      if (wire.step >= 0) last[wire.step] = std::max(last[wire.step], place);
+    visit_steps(plan, {plan.order[place]}, -1, [&](int step, int) { users[step].insert(place); });
+    visit_wires(plan, plan.order[place], [&](int step, const Wire& wire, const InputDescription*) {
+      if (wire.step < 0) return;
+      users[wire.step].insert(place);
+      if (step >= 0 && lifetimes[step].keeping == Keeping::passing)
+        passing.emplace_back(step, wire.step);
     });
   }
-  // What passes through lives as long as the one that draws on it: go back from consumers to
-  // producers.
-  const auto lifetimes = keeping_of(plan);
-  for (std::size_t place = plan.order.size(); place-- > 0;)
-    visit_wires(plan, plan.order[place], [&](int step, const Wire& wire, const InputDescription*) {
-      if (step >= 0 && wire.step >= 0 && lifetimes[step].keeping == Keeping::passing)
-        last[wire.step] = std::max(last[wire.step], last[step]);
-    });
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [step, from] : passing) {
+      const std::size_t known = users[from].size();
+      users[from].insert(users[step].begin(), users[step].end());
+      more |= users[from].size() > known;
+    }
+  }
+  std::vector<std::vector<std::size_t>> places;
+  places.reserve(users.size());
+  for (const auto& of_step : users) places.emplace_back(of_step.begin(), of_step.end());
+  return places;
+}
+
+std::vector<std::size_t> last_uses(const Plan& plan) {
+  const auto users = users_of(plan);
+  std::vector<std::size_t> last;
+  last.reserve(users.size());
+  for (const auto& places : users) last.push_back(places.back());
   return last;
 }
 

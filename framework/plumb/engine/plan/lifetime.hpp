@@ -23,7 +23,10 @@ struct Lifetime {
   std::string why;  ///< for people: "large, and only voxels takes them"
 };
 
-/// For each step: the place in Plan::order after which nobody asks for its results any more.
+/// For each step: the places in Plan::order, its own and later ones, whose items may ask for its
+/// results, in order. Who draws on something that passes through asks all that this draws on.
+std::vector<std::vector<std::size_t>> users_of(const Plan& plan);
+/// The last of them: after it nobody asks any more.
 std::vector<std::size_t> last_uses(const Plan& plan);
 
 /// For each step: whether its items pass through, are kept, or are remembered too.

@@ -38,7 +38,7 @@ class PlanText {
     add_groups(plan.order, "");
   }
 
-  std::string text() const { return table() + legend + side_by_side() + memory; }
+  std::string text() const { return table() + legend + run_together() + memory; }
 
  private:
   static constexpr const char* legend =
@@ -121,11 +121,11 @@ class PlanText {
     return text;
   }
 
-  std::string side_by_side() const {
+  std::string run_together() const {
     if (groups_.empty()) return "";
     std::string text =
-        "side by side: no path joins the steps of a group; a run makes them one after the other, "
-        "but they could run at the same time\n";
+        "run together: none of a group waits for another, so they run at the same time where "
+        "threads are free; with --memory steps run one after the other\n";
     for (const std::string& group : groups_) text += "  " + group + "\n";
     return text;
   }

@@ -7,9 +7,9 @@
 
 namespace plumb {
 
-/// A line a step, in the order in which they run: what one call sees, how long the results live and
-/// why. Below, which steps could run side by side. What depends on the data, as the numbers of
-/// items and the memory do, is not in it.
+/// A line a step, in the order in which they begin: what one call sees, how long the results live
+/// and why. Below, which steps run together. What depends on the data, as the numbers of items and
+/// the memory do, is not in it.
 std::string plan_text(const Plan& plan);
 
 }  // namespace plumb

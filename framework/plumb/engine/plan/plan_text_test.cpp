@@ -7,13 +7,16 @@
 #include <fstream>
 
 #include "plumb/engine/plan/depth.hpp"
+#include "plumb/engine/plan/level.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
+#include "plumb/engine/testing/drawn_plan.hpp"
 #include "plumb/engine/testing/test_steps.hpp"
 #include "plumb/pipeline/reader.hpp"
 
 namespace plumb {
 namespace {
 
+using engine_test::DrawnPlan;
 using engine_test::FrameRange, engine_test::Segment, engine_test::SegmentStep;
 using testing::ElementsAre, testing::HasSubstr, testing::Not;
 
@@ -104,11 +107,11 @@ loop/3    loop.solved   whole collections      remembered  out         in a repe
 6       out             whole collections      kept        end of run  one call makes all
 results: )";
   EXPECT_EQ(text.substr(0, table.size()), table);
-  EXPECT_THAT(text, HasSubstr("time\n  3: merged, sums\nmemory: known after a first run"));
+  EXPECT_THAT(text, HasSubstr("one after the other\n  3: merged, sums\nmemory: known"));
 }
 
 TEST_F(OfAPlan, WhatHasNoStepBesideItIsInNoListOfGroups) {
-  EXPECT_THAT(plan_text(with("", "merged")), Not(HasSubstr("side by side")));
+  EXPECT_THAT(plan_text(with("", "merged")), Not(HasSubstr("run together")));
 }
 
 TEST_F(OfAPlan, LargeItemsPassOnlyToOneStepThatTakesThemOneByOne) {
@@ -151,25 +154,14 @@ TEST_F(OfAPlan, ItemsOfAStepThatOccursAgainAreRemembered) {
 }
 
 TEST(Depths, CountTheLongestPathWithinALevelAlsoThroughWhatARepeatHolds) {
-  StepDescription description;
-  description.inputs.resize(1);
-  Plan plan;
-  const auto add = [&](std::vector<int> from) {
-    PlannedStep step;
-    step.description = &description;
-    step.inputs.resize(1);
-    for (const int s : from) {
-      step.inputs[0].emplace_back();
-      step.inputs[0].back().step = s;
-    }
-    plan.steps.push_back(std::move(step));
-  };
-  add({});      // 0
-  add({0});     // 1, in the repeat 0
-  add({1});     // 2, in the repeat 1, in the repeat 0
-  add({0, 2});  // 3, in the repeat 0
-  add({0});     // 4
-  add({2, 4});  // 5
+  DrawnPlan drawn;
+  drawn.add({});      // 0
+  drawn.add({0});     // 1, in the repeat 0
+  drawn.add({1});     // 2, in the repeat 1, in the repeat 0
+  drawn.add({0, 2});  // 3, in the repeat 0
+  drawn.add({0});     // 4
+  drawn.add({2, 4});  // 5
+  Plan& plan = drawn.plan;
   plan.repeats.resize(2);
   plan.repeats[0].body = {{1, -1}, {-1, 1}, {3, -1}};
   plan.repeats[1].body = {{2, -1}};
@@ -177,6 +169,46 @@ TEST(Depths, CountTheLongestPathWithinALevelAlsoThroughWhatARepeatHolds) {
   const Depths depths = depths_of(plan);
   EXPECT_THAT(depths.steps, ElementsAre(1, 1, 1, 3, 2, 3));
   EXPECT_THAT(depths.repeats, ElementsAre(2, 2));
+}
+
+TEST(Level, WaitsForWhatItDrawsOnAndForWhatMayGiveTheSame) {
+  DrawnPlan drawn;
+  drawn.add({});      // 0
+  drawn.add({0});     // 1
+  drawn.add({0});     // 2, in the repeat 0
+  drawn.add({1});     // 3
+  drawn.add({0, 3});  // 4
+  Plan& plan = drawn.plan;
+  plan.repeats.resize(1);
+  plan.repeats[0].body = {{2, -1}};
+  plan.order = {{0, -1}, {1, -1}, {-1, 0}, {3, -1}, {4, -1}};
+  using Places = std::vector<std::vector<std::size_t>>;
+  EXPECT_EQ(level_of(plan, plan.order).before, (Places{{}, {0}, {0}, {1}, {0, 3}}));
+  EXPECT_EQ(level_of(plan, plan.order).after, (Places{{1, 2, 4}, {3}, {}, {4}, {}}));
+  EXPECT_EQ(level_of(plan, plan.repeats[0].body).before, Places(1));
+  drawn.make_alike(3, 2, 1);  // by the one in the repeat
+  EXPECT_EQ(level_of(plan, plan.order).before, (Places{{}, {0}, {0}, {1, 2}, {0, 3}}));
+  drawn.make_alike(3, 2, 5);
+  EXPECT_EQ(level_of(plan, plan.order).before, (Places{{}, {0}, {0}, {1}, {0, 3}}));
+  plan.steps[2].parameters[0].row = 0;  // what it is in which pass is not known
+  EXPECT_EQ(level_of(plan, plan.order).before, (Places{{}, {0}, {0}, {1, 2}, {0, 3}}));
+}
+
+TEST_F(OfAPlan, WhoMayAskAStepAreItsTakersAndThoseOfWhatPassesOn) {
+  const Plan plan = with("  first: {use: test.trim, from: merged}\n", "first",
+                         "      trimmed: {use: test.trim, from: first}\n");
+  const auto users = users_of(plan);
+  const auto of = [&](const std::string& path) {
+    for (std::size_t s = 0; s < plan.steps.size(); ++s)
+      if (plan.steps[s].path == path) return users[s];
+    return std::vector<std::size_t>();
+  };
+  // source, merged, first, edges, loop, out.
+  EXPECT_THAT(of("source"), ElementsAre(0, 1, 2, 4));  // by merged, which passes through to first
+  EXPECT_THAT(of("merged"), ElementsAre(1, 2));
+  EXPECT_THAT(of("first"), ElementsAre(2, 3, 4));
+  EXPECT_THAT(of("loop.near"), ElementsAre(4));
+  EXPECT_THAT(of("loop.solved"), ElementsAre(4, 5));
 }
 
 }  // namespace

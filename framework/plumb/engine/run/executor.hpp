@@ -1,5 +1,6 @@
 #pragma once
-/// Where the calls of a step are made: in this process, or by an Executor in others.
+/// Where the calls of a step are made: in this process (local_executor.hpp) or in others
+/// (engine/remote).
 
 #include <functional>
 #include <string>
@@ -52,16 +53,21 @@ struct Reply {
   double seconds = 0;  ///< wall clock
 };
 
-/// Makes calls in other processes; they find what they need in the store and leave there what they
-/// made.
+/// Makes calls of steps. Safe from several threads.
 class Executor {
  public:
+  /// What became of a call: `fault` is a sentence that names step and item, empty when the call
+  /// went well and the step has its result.
+  using Done = std::function<void(std::size_t call, const std::string& fault)>;
   virtual ~Executor() = default;
-  /// Makes the given calls of `run`, in any order, and tells what became of each; `done` is called
-  /// from one thread at a time. A call of a step on whole collections is number 0. Throws Error
-  /// when nothing can be made at all.
-  virtual void make(StepRun& run, const std::vector<std::size_t>& calls,
-                    const std::function<void(const Reply&)>& done) = 0;
+  /// Makes the given calls of `run`, in any order, and tells of each; `done` is called from one
+  /// thread at a time. A call of a step on whole collections is number 0. Once `run.stopped()`,
+  /// calls that have not begun are left out, and nothing is told of them. Throws Error when
+  /// something is wrong that is not the call's fault.
+  virtual void make(StepRun& run, const std::vector<std::size_t>& calls, const Done& done) = 0;
+  /// Whether calls are made in other processes, which find what they need in the store and leave
+  /// there what they made.
+  virtual bool elsewhere() const = 0;
 };
 
 template <class Archive, class T>

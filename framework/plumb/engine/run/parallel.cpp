@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <atomic>
 #include <exception>
@@ -40,6 +41,20 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
         tbb::simple_partitioner());
   });
   if (failure) std::rethrow_exception(failure);
+}
+
+void run_tasks(std::size_t n, const std::function<std::size_t()>& task) {
+  tbb::task_group group;
+  // One is for this thread, which goes on with one of those that it makes due. No isolation: who
+  // waits here makes nothing that others could need.
+  const std::function<void(std::size_t)> work = [&](std::size_t due) {
+    while (due > 0) {
+      for (; due > 1; --due) group.run([&work] { work(1); });
+      due = task();
+    }
+  };
+  work(n);
+  group.wait();
 }
 
 void with_threads(unsigned threads, const std::function<void()>& body) {

@@ -1,8 +1,9 @@
 /// The seam to the thread pool in a build for ThreadSanitizer, which sees nothing of what oneTBB's
 /// library does and takes its hand-overs for races: the same functions with threads of the standard
-/// library, begun and joined by each loop.
+/// library, begun and joined by each loop or set of tasks.
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -62,7 +63,46 @@ class Loop {
   std::size_t failed_at_ = 0;
 };
 
+/// What the threads of a set of tasks share. A helper is begun for each task that is due beyond the
+/// one that its own thread takes, as far as threads are left, and ends when none is due.
+class Tasks {
+ public:
+  Tasks(std::size_t n, const std::function<std::size_t()>& task) : task_(task), due_(n) {}
+
+  void run() {
+    work(false);
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  void work(bool helps) {
+    std::unique_lock lock(mutex_);
+    while (due_ > 0 || (running_ > 0 && !helps)) {
+      if (due_ == 0) {
+        changed_.wait(lock);
+        continue;
+      }
+      --due_, ++running_;
+      for (std::size_t k = 0; k < due_ && take_helper(); ++k)
+        threads_.emplace_back([this] { work(true); });
+      lock.unlock();
+      const std::size_t more = task_();
+      lock.lock();
+      --running_, due_ += more;
+      changed_.notify_all();
+    }
+    if (helps) --helpers;
+  }
+  const std::function<std::size_t()>& task_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t due_, running_ = 0;
+  std::vector<std::thread> threads_;
+};
+
 }  // namespace
+
+void run_tasks(std::size_t n, const std::function<std::size_t()>& task) { Tasks(n, task).run(); }
 
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
   Loop loop(n, body);

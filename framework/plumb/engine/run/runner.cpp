@@ -1,12 +1,21 @@
 #include "plumb/engine/run/runner.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
 #include "plumb/engine/plan/loop.hpp"
+#include "plumb/engine/plan/wires.hpp"
+#include "plumb/engine/run/admission.hpp"
+#include "plumb/engine/run/gathered.hpp"
+#include "plumb/engine/run/local_executor.hpp"
 #include "plumb/engine/run/parallel.hpp"
+#include "plumb/engine/run/schedule.hpp"
 #include "plumb/engine/run/step_run.hpp"
 #include "plumb/store/index.hpp"
 #include "plumb/store/size_bound.hpp"
@@ -26,30 +35,36 @@ std::size_t memory_for_results(const RunOptions& options) {
 /// itself.
 std::size_t memory_for_calls(const RunOptions& options) { return options.memory / 2; }
 
-class Runner {
+/// What is known of a step or a repeat is written by the thread that runs it and read by those that
+/// wait for it.
+class Runner final : public Work {
  public:
   Runner(const Plan& plan, const Registry& registry, const RunOptions& options, Observer& observer)
       : plan_(plan),
+        options_(options),
         books_(observer),
         results_(options.store, options.fresh, memory_for_results(options), options.memory > 0),
-        admission_(memory_for_calls(options)),
-        executor_(options.executor),
-        store_(options.store),
-        bound_(options.store_bound),
+        here_(memory_for_calls(options)),
         lifetimes_(keeping_of(plan)),
+        users_(users_of(plan)),
+        repeat_of_(plan.steps.size(), -1),
         runs_(plan.steps.size()),
-        documents_(plan.steps.size()),
-        numbers_(plan.steps.size()),
-        carried_(plan.repeats.size()) {
+        judges_(plan.repeats.size()),
+        passes_(plan.repeats.size(), 0),
+        carried_(plan.repeats.size()),
+        gathered_(plan),
+        schedule_(plan, *this) {
     for (const PlannedStep& step : plan.steps)
       steps_.push_back(&registry.step(step.description->name));
+    visit_steps(plan, plan.order, -1, [&](int step, int repeat) { repeat_of_[step] = repeat; });
   }
 
   /// Tells its begin and its end, and why it failed if it did.
   void run() {
     books_.run_begins(plan_.name, plan_.steps.size());
     try {
-      run_all();
+      // Memory is shared out to calls, and nobody knows what a step on whole collections needs.
+      schedule_.run(options_.memory == 0);
     } catch (const std::exception& e) {
       books_.run_ends(e.what());
       throw;
@@ -57,41 +72,90 @@ class Runner {
     books_.run_ends();
   }
 
-  RunResult result() {
-    RunResult result;
-    for (std::size_t s = 0; s < plan_.steps.size(); ++s) {
-      for (auto& document : documents_[s])
-        result.documents.push_back({plan_.steps[s].path, document});
-      for (auto& numbers : numbers_[s]) result.numbers.push_back({plan_.steps[s].path, numbers});
+  RunResult result() { return gathered_.result(books_); }
+
+  void run_step(int index, const Turn& turn) override {
+    const PlannedStep& step = plan_.steps[index];
+    const int pass = repeat_of_[index] < 0 ? -1 : passes_[repeat_of_[index]];
+    auto inputs = inputs_of(step);
+    const auto begin = std::chrono::steady_clock::now();
+    std::shared_ptr<StepRun> run;
+    try {
+      run = std::make_shared<StepRun>(
+          step, *steps_[index], values_of(step), std::move(inputs), lifetimes_[index].keeping,
+          RunState{books_, results_, executor(), pass, &schedule_.stopped()});
+    } catch (const Error& e) {
+      throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
     }
-    result.loops = std::move(loops_);
-    result.warnings = books_.warnings();
-    result.counts = books_.counts();
-    result.times = books_.times();
-    result.peak_bytes = books_.memory().peak();
-    result.explained = std::move(explained_);
-    return result;
+    const auto counted = books_.items_of(step.path);
+    run->start();
+    if (runs_[index]) runs_[index]->remember();  // of the pass before, which nobody asks any more
+    runs_[index] = run;
+    if (options_.store) explain(index, *run, counted, turn);
+    run->remember();
+    gathered_.add(index, *run);
+    if (lifetimes_[index].keeping != Keeping::passing)
+      books_.step_ends(
+          step.path, pass,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    hold_bound();
+  }
+
+  void begin_repeat(int index) override {
+    const PlannedRepeat& repeat = plan_.repeats[index];
+    carried_[index].clear();
+    for (const PlannedCarry& carry : repeat.carries)
+      carried_[index].push_back(source_of(carry.start));
+    judges_[index].emplace(repeat);
+  }
+
+  void begin_pass(int index, int pass) override {
+    passes_[index] = pass;
+    books_.pass_begins(plan_.repeats[index].path, pass, plan_.repeats[index].at_most);
+  }
+
+  bool end_pass(int index, const Turn& turn) override {
+    const PlannedRepeat& repeat = plan_.repeats[index];
+    std::vector<double> values;
+    for (const PlannedCondition& condition : repeat.conditions)
+      values.push_back(condition_value(condition));
+    std::vector<Source> next;
+    for (const PlannedCarry& carry : repeat.carries) next.push_back(source_of(carry.next));
+    carried_[index] = std::move(next);
+    const auto ended = judges_[index]->after_pass(std::move(values));
+    if (!ended) return true;
+    carried_[index].clear();
+    end_loop(repeat, judges_[index]->passes(), *ended, turn);
+    return false;
+  }
+
+  void item_done(std::size_t place) override {
+    release(place);
+    if (options_.store) options_.store->sync();
+    if (options_.memory > 0) give_memory_back();
   }
 
  private:
-  void run_all() {
-    const auto last = last_uses(plan_);
-    for (std::size_t place = 0; place < plan_.order.size(); ++place) {
-      run_item(plan_.order[place]);
-      for (std::size_t s = 0; s < runs_.size(); ++s)
-        if (last[s] <= place && runs_[s]) {
-          runs_[s]->remember();
-          runs_[s].reset();
-        }
-      if (store_) store_->sync();
-      if (admission_.bounded()) give_memory_back();
-    }
+  Executor& executor() {
+    return options_.executor ? *options_.executor : static_cast<Executor&>(here_);
   }
 
-  void run_item(const PlannedItem& item) {
-    if (item.step < 0) return run_repeat(item.repeat);
-    run_step(item.step);
-    if (bound_) bound_->after_step();
+  /// Lets go of those steps that an item of the pipeline was the last to ask.
+  void release(std::size_t place) {
+    std::vector<std::shared_ptr<StepRun>> over;
+    {
+      const std::lock_guard lock(users_mutex_);
+      for (std::size_t s = 0; s < users_.size(); ++s)
+        if (std::erase(users_[s], place) > 0 && users_[s].empty())
+          over.push_back(std::move(runs_[s]));
+    }
+    for (const auto& run : over) run->remember();
+  }
+
+  void hold_bound() {
+    if (!options_.store_bound) return;
+    const std::lock_guard lock(bound_mutex_);
+    options_.store_bound->after_step();
   }
 
   Source source_of(const Wire& wire) const {
@@ -103,73 +167,43 @@ class Runner {
     return {runs_[wire.step], wire.output, wire.label};
   }
 
-  void run_step(int index) {
-    const PlannedStep& step = plan_.steps[index];
+  std::vector<std::vector<Source>> inputs_of(const PlannedStep& step) const {
+    std::vector<std::vector<Source>> inputs(step.inputs.size());
+    for (std::size_t p = 0; p < inputs.size(); ++p)
+      for (const Wire& wire : step.inputs[p]) inputs[p].push_back(source_of(wire));
+    return inputs;
+  }
+
+  ParameterValues values_of(const PlannedStep& step) const {
     ParameterValues values;
     for (std::size_t p = 0; p < step.parameters.size(); ++p) {
       const PlannedParameter& parameter = step.parameters[p];
       values[step.description->parameters[p].name] =
           parameter.row < 0
               ? parameter.value
-              : plan_.repeats[parameter.repeat].value(parameter.row, pass_of_[parameter.repeat]);
+              : plan_.repeats[parameter.repeat].value(parameter.row, passes_[parameter.repeat]);
     }
-    std::vector<std::vector<Source>> inputs(step.inputs.size());
-    for (std::size_t p = 0; p < inputs.size(); ++p)
-      for (const Wire& wire : step.inputs[p]) inputs[p].push_back(source_of(wire));
-
-    const auto begin = std::chrono::steady_clock::now();
-    std::shared_ptr<StepRun> run;
-    try {
-      run = std::make_shared<StepRun>(step, *steps_[index], values, std::move(inputs),
-                                      lifetimes_[index].keeping,
-                                      RunState{books_, results_, admission_, executor_, pass_});
-    } catch (const Error& e) {
-      throw Error("step '" + step.path + "' (" + step.description->name + "): " + e.what());
-    }
-    const auto counted = books_.items_of(step.path);
-    run->start();
-    if (runs_[index]) runs_[index]->remember();  // of the pass before, which nobody asks any more
-    runs_[index] = run;
-    if (store_) explain(index, *run, counted);
-    run->remember();
-    collect(index, *run);
-    if (lifetimes_[index].keeping != Keeping::passing)
-      books_.step_ends(
-          step.path, pass_,
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    return values;
   }
 
   /// Compares what decided over the step with what did in the last run, and notes it for the next.
-  void explain(int index, StepRun& run, std::pair<std::size_t, std::size_t> counted) {
+  void explain(int index, StepRun& run, std::pair<std::size_t, std::size_t> counted,
+               const Turn& turn) {
     const PlannedStep& step = plan_.steps[index];
+    Index& known = *options_.store->index();
     Explained one;
     one.path = step.path;
-    one.pass = pass_;
+    one.pass = repeat_of_[index] < 0 ? -1 : passes_[repeat_of_[index]];
     one.passes = lifetimes_[index].keeping == Keeping::passing;
     const auto now = books_.items_of(step.path);
     one.made = now.first - counted.first;
     one.reused = now.second - counted.second;
     const Facts& facts = run.facts();
-    const Facts before = store_->index()->facts(plan_.name, step.path, one.pass);
+    const Facts before = known.facts(plan_.name, step.path, one.pass);
     one.why =
         before.empty() ? "this cache knows no earlier run of it" : first_difference(before, facts);
-    store_->index()->set_facts(plan_.name, step.path, one.pass, facts);
-    explained_.push_back(std::move(one));
-  }
-
-  void collect(int index, StepRun& run) {
-    if (run.itemwise()) return;
-    documents_[index].clear();
-    numbers_[index].clear();
-    const auto& outputs = plan_.steps[index].description->outputs;
-    for (std::size_t o = 0; o < outputs.size(); ++o) {
-      const int output = static_cast<int>(o);
-      if (outputs[o].type == &type_of<Document>())
-        for (std::size_t k = 0; k < run.count(output); ++k)
-          documents_[index].push_back(run.value(output, k).as<Document>());
-      if (outputs[o].type->has_numbers && outputs[o].emission == Emission::one)
-        numbers_[index].push_back(run.value(output));
-    }
+    known.set_facts(plan_.name, step.path, one.pass, facts);
+    gathered_.add(turn, std::move(one));
   }
 
   double condition_value(const PlannedCondition& condition) const {
@@ -180,38 +214,11 @@ class Runner {
                 "' gave no number '" + condition.metric + "' to judge the loop by");
   }
 
-  void run_repeat(int index) {
-    const PlannedRepeat& repeat = plan_.repeats[index];
-    auto& carried = carried_[index];
-    carried.clear();
-    for (const PlannedCarry& carry : repeat.carries) carried.push_back(source_of(carry.start));
-    LoopJudge judge(repeat);
-    const int outer = pass_;
-    for (;;) {
-      const int pass = judge.passes();
-      pass_of_[index] = pass;
-      pass_ = pass;
-      books_.pass_begins(repeat.path, pass, repeat.at_most);
-      for (const PlannedItem& item : repeat.body) run_item(item);
-      std::vector<double> values;
-      for (const PlannedCondition& condition : repeat.conditions)
-        values.push_back(condition_value(condition));
-      std::vector<Source> next;
-      for (const PlannedCarry& carry : repeat.carries) next.push_back(source_of(carry.next));
-      carried = std::move(next);
-      const auto ended = judge.after_pass(std::move(values));
-      if (!ended) continue;
-      pass_ = outer;
-      end_loop(repeat, judge, *ended);
-      return;
-    }
-  }
-
-  void end_loop(const PlannedRepeat& repeat, const LoopJudge& judge, const std::string& why) {
-    loops_.push_back({repeat.path, judge.passes(), why});
+  void end_loop(const PlannedRepeat& repeat, int passes, const std::string& why, const Turn& turn) {
+    gathered_.add(turn, LoopEnd{repeat.path, passes, why});
     const bool exhausted = !repeat.conditions.empty() && why.starts_with("at_most");
     const std::string sentence =
-        repeat.path + " ended after " + counted(judge.passes(), "passes") + ": " + why;
+        repeat.path + " ended after " + counted(passes, "passes") + ": " + why;
     if (exhausted && repeat.if_exhausted == Exhausted::fail)
       throw Error(repeat.origin.text() + ": " + sentence +
                   "; allow more passes (at_most) or ask for less (until)");
@@ -219,22 +226,21 @@ class Runner {
   }
 
   const Plan& plan_;
+  const RunOptions& options_;
   Bookkeeping books_;
   Results results_;
-  Admission admission_;
-  Executor* executor_;
-  Store* store_;
-  SizeBound* bound_;
+  LocalExecutor here_;
   std::vector<Lifetime> lifetimes_;
   std::vector<const Step*> steps_;
-  std::vector<std::shared_ptr<StepRun>> runs_;  ///< by step, of the present or last pass
-  std::vector<std::vector<std::shared_ptr<const Document>>> documents_;
-  std::vector<std::vector<AnyValue>> numbers_;
-  std::vector<std::vector<Source>> carried_;  ///< by repeat, then carry
-  std::map<int, int> pass_of_;
-  int pass_ = -1;  ///< of the innermost repeat that runs
-  std::vector<LoopEnd> loops_;
-  std::vector<Explained> explained_;
+  std::vector<std::vector<std::size_t>> users_;   ///< by step: places that may still ask it
+  std::vector<int> repeat_of_;                    ///< by step: the innermost around it
+  std::vector<std::shared_ptr<StepRun>> runs_;    ///< by step, of the present or last pass
+  std::vector<std::optional<LoopJudge>> judges_;  ///< by repeat
+  std::vector<int> passes_;                       ///< by repeat: the present one
+  std::vector<std::vector<Source>> carried_;      ///< by repeat, then carry
+  std::mutex users_mutex_, bound_mutex_;
+  Gathered gathered_;
+  Schedule schedule_;
 };
 
 }  // namespace

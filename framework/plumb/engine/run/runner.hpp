@@ -21,10 +21,12 @@ struct RunOptions {
   unsigned threads = 0;    ///< 0: as many as the machine has
   Store* store = nullptr;  ///< where results of earlier runs are found and those of this one kept
   bool fresh = false;      ///< nothing is taken from the store, but all is kept
-  SizeBound* store_bound = nullptr;  ///< held between steps; in the end whoever has it sees to it
-  std::size_t memory = 0;  ///< bound of resident memory [bytes], which needs a store; 0: none
-  Executor* executor =
-      nullptr;  ///< makes calls in other processes, which needs a store; none: all in this one
+  SizeBound* store_bound = nullptr;  ///< held after each step; in the end whoever has it sees to it
+  /// Bound of resident memory [bytes], which needs a store and has steps run one after the other;
+  /// 0: none.
+  std::size_t memory = 0;
+  /// Makes the calls; one that makes them in other processes needs a store. None: a LocalExecutor.
+  Executor* executor = nullptr;
 };
 
 /// How a repeat ended.
@@ -49,13 +51,12 @@ struct MadeNumbers {
 struct RunResult {
   std::vector<MadeDocument> documents;
   std::vector<MadeNumbers> numbers;  ///< every such value; of a repeat its last pass
-  std::vector<LoopEnd> loops;
+  std::vector<LoopEnd> loops;        ///< in the plan's order
   std::vector<std::string> warnings;
   std::vector<StepCount> counts;
-  std::vector<StepTime> times;
-  std::vector<Explained>
-      explained;       ///< with a store: each step, in each pass, in the order in which they ran
-  double seconds = 0;  ///< wall clock
+  std::vector<StepTime> times;       ///< by step, in the plan's order
+  std::vector<Explained> explained;  ///< with a store: each step in each pass, in the plan's order
+  double seconds = 0;                ///< wall clock
   std::size_t peak_bytes = 0;  ///< of resident memory without mapped files, of all its processes
 };
 

@@ -25,6 +25,26 @@ class RunCollection final : public Collection {
   std::size_t first_, end_;
 };
 
+/// From what the call sees, by content: a copied file or another folder gives the same numbers.
+/// Collections are not looked at.
+/// Of the inputs' content alone, so that neither a name nor a version nor another build changes
+/// what a step draws.
+std::uint64_t seed_of(const std::vector<PortInput>& inputs) {
+  Hasher hasher;
+  const auto add = [&](const AnyValue& value) {
+    if (!value) return;
+    const Hash128 content = value.hash();
+    hasher.bytes(&content, sizeof content);
+  };
+  for (const PortInput& port : inputs) {
+    add(port.one);
+    add(port.other);
+    for (const auto& [label, value] : port.several) add(value);
+    if (port.part.value) hasher.bytes(&port.part.hash, sizeof port.part.hash);
+  }
+  return hasher.hash().low;
+}
+
 }  // namespace
 
 /// The place of item k, and of what it joins.
@@ -145,26 +165,6 @@ std::vector<PortInput> StepRun::gather(std::size_t k) {
     }
   }
   return ports;
-}
-
-/// From what the call sees, by content: a copied file or another folder gives the same numbers.
-/// Collections are not looked at.
-/// Of the inputs' content alone, so that neither a name nor a version nor another build changes
-/// what a step draws.
-std::uint64_t StepRun::seed_of(const std::vector<PortInput>& inputs) {
-  Hasher hasher;
-  const auto add = [&](const AnyValue& value) {
-    if (!value) return;
-    const Hash128 content = value.hash();
-    hasher.bytes(&content, sizeof content);
-  };
-  for (const PortInput& port : inputs) {
-    add(port.one);
-    add(port.other);
-    for (const auto& [label, value] : port.several) add(value);
-    if (port.part.value) hasher.bytes(&port.part.hash, sizeof port.part.hash);
-  }
-  return hasher.hash().low;
 }
 
 /// Memory that a call may need [bytes], about: its inputs, and twice as much for what is made of

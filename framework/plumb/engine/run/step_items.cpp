@@ -1,6 +1,6 @@
-/// The items of an item-wise step: which there are, reused, made here or
-/// elsewhere, fetched again, dropped.
+/// The items of an item-wise step: which there are, reused, made, fetched again, dropped.
 #include <algorithm>
+#include <tuple>
 
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
@@ -12,8 +12,40 @@
 namespace plumb {
 namespace {
 
-/// So many items of a step may fail before the rest is left out: then it is not the items.
-constexpr std::size_t most_failures = 16;
+[[noreturn]] void refuse_counts(const PlannedStep& step, const std::string& one, std::size_t have,
+                                const std::string& other, std::size_t wanted) {
+  throw NestedError(
+      "step '" + step.path + "' (" + step.description->name + "): " + one + " has " +
+      counted(have, "items") + " where " + other + " has " + std::to_string(wanted) +
+      "; wire what was cut alike, and if a cache was changed by hand, run with --refresh");
+}
+
+/// A key costs less than to measure its time.
+constexpr std::size_t keys_at_a_time = 16;
+
+/// An item, and an earlier one with the same key.
+struct Repeated {
+  std::size_t first, item;
+};
+
+/// Takes out of `calls` those whose key an earlier one has.
+std::vector<Repeated> take_repeated(std::vector<std::size_t>& calls,
+                                    const std::vector<Hash128>& keys) {
+  std::sort(calls.begin(), calls.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(keys[a], a) < std::tie(keys[b], b);
+  });
+  std::vector<Repeated> repeated;
+  std::vector<std::size_t> firsts;
+  firsts.reserve(calls.size());
+  for (const std::size_t k : calls)
+    if (!firsts.empty() && keys[firsts.back()] == keys[k])
+      repeated.push_back({firsts.back(), k});
+    else
+      firsts.push_back(k);
+  std::sort(firsts.begin(), firsts.end());
+  calls = std::move(firsts);
+  return repeated;
+}
 
 }  // namespace
 
@@ -24,7 +56,7 @@ void StepRun::find_items() {
   std::string first;
   const auto take = [&](std::size_t items, const std::string& port) {
     if (!first.empty() && items != items_)
-      refuse_counts("'" + port + "'", items, "'" + first + "'", items_);
+      refuse_counts(plan_, "'" + port + "'", items, "'" + first + "'", items_);
     items_ = items, first = port;
   };
   for (std::size_t p = 0; p < ports.size(); ++p) {
@@ -58,25 +90,9 @@ void StepRun::require_ends() {
     if (input.access == Access::part && !plan_.description->lists_items(input))
       have = step_.ends_count(p, source.run->value(source.output).value.get());
     if (have && *have != wanted)
-      refuse_counts("'" + input.name + "'", *have,
+      refuse_counts(plan_, "'" + input.name + "'", *have,
                     "the graph of the " + plan_.description->items->name + "s", wanted);
   }
-}
-
-void StepRun::refuse_counts(const std::string& one, std::size_t have, const std::string& other,
-                            std::size_t wanted) const {
-  throw NestedError(
-      "step '" + plan_.path + "' (" + plan_.description->name + "): " + one + " has " +
-      counted(have, "items") + " where " + other + " has " + std::to_string(wanted) +
-      "; wire what was cut alike, and if a cache was changed by hand, run with --refresh");
-}
-
-void StepRun::adopt_items(std::vector<Hash128> keys, Source list) {
-  kept_keys_ = std::move(keys);
-  items_ = kept_keys_.size();
-  pins_.resize(items_);
-  if (list.run) list_ = list.run->value(list.output);
-  list_source_ = std::move(list);
 }
 
 void StepRun::start_items() {
@@ -85,123 +101,80 @@ void StepRun::start_items() {
   state_.books.step_begins(plan_.path, state_.pass, items_);
   kept_keys_.resize(items_);
   pins_.resize(items_);
-  if (state_.executor)
-    make_items_elsewhere();
-  else
-    make_items_here();
+  std::vector<std::size_t> calls = find_keys();
+  const std::vector<Repeated> repeated = take_repeated(calls, kept_keys_);
+  reuse(calls);
+  make(calls);
+  for (const auto& [first, k] : repeated) {
+    if (failures_.has(first)) {
+      failures_.add(k, title(k) + ": as " + item_name(first));
+      continue;
+    }
+    const Stopwatch watch(state_.books, plan_.path);
+    pins_[k] = pins_[first];
+    Stopwatch::item(item_name(k), state_.pass, true);
+  }
+  settle();
   if (!state_.results.store())
     inputs_.clear();  // nothing will have to be made again: lets go of what came before
 }
 
-/// Whether item k is there from an earlier pass or run.
-bool StepRun::reuse(std::size_t k) {
-  const Hash128& key = kept_keys_[k];
-  const bool store = state_.results.store() != nullptr;
-  if (!store && keeping_ != Keeping::remembered) return false;
-  const bool here = store && state_.results.in_store(key);
-  auto found = find(key);
-  if (!found) return false;
-  if (store && !here) say_again(*found);
-  if (!state_.results.in_store(key)) pins_[k] = std::move(found);
-  Stopwatch::item(item_name(k), state_.pass, true);
-  return true;
-}
-
-void StepRun::make_item(std::size_t k) {
-  const Admission::Ticket ticket(state_.admission,
-                                 state_.admission.bounded() ? expected_bytes(k) : 0);
-  StoredResult said;
-  auto outputs = call(k, &said);
-  note(said);
-  kept(kept_keys_[k], result_of(outputs, std::move(said)), pins_[k]);
-  Stopwatch::item(item_name(k), state_.pass, false);
-}
-
-void StepRun::make_items_here() {
-  std::mutex mutex;
-  std::vector<Failed> failed;
-  parallel_for(items_, [&](std::size_t k) {
+/// Returns the items that have a key now; the others have failed, or are left out.
+std::vector<std::size_t> StepRun::find_keys() {
+  std::vector<char> known(items_, 0);
+  parallel_for((items_ + keys_at_a_time - 1) / keys_at_a_time, [&](std::size_t b) {
     const Stopwatch watch(state_.books, plan_.path);
-    {
-      const std::lock_guard lock(mutex);
-      if (failed.size() >= most_failures && plan_.on_error == OnError::stop) return;
-    }
-    try {
-      kept_keys_[k] = call_key(k);
-      if (!reuse(k)) make_item(k);
-    } catch (const NestedError& e) {
-      const std::lock_guard lock(mutex);
-      failed.push_back({k, e.what()});
-    }
+    const std::size_t end = std::min(items_, (b + 1) * keys_at_a_time);
+    for (std::size_t k = b * keys_at_a_time; k < end && !stopped(); ++k) try {
+        kept_keys_[k] = call_key(k);
+        known[k] = 1;
+      } catch (const NestedError& e) {
+        failures_.add(k, e.what());
+      }
   });
-  settle(std::move(failed));
-}
-
-void StepRun::make_items_elsewhere() {
-  std::vector<char> missing(items_, 0);
-  parallel_for(items_, [&](std::size_t k) {
-    const Stopwatch watch(state_.books, plan_.path);
-    kept_keys_[k] = call_key(k);
-    missing[k] = !reuse(k);
-  });
-  std::vector<std::size_t> calls;
-  std::map<Hash128, std::size_t> first;  // items with the same key are made once
+  std::vector<std::size_t> items;
   for (std::size_t k = 0; k < items_; ++k)
-    if (missing[k] && first.try_emplace(kept_keys_[k], k).second) calls.push_back(k);
-  std::vector<Failed> failed;
-  if (!calls.empty())
-    state_.executor->make(*this, calls, [&](const Reply& reply) {
-      book(reply);
-      const std::size_t k = reply.item;
-      if (reply.machinery) throw NestedError(reply.fault);
-      if (!reply.fault.empty())
-        failed.push_back({k, reply.fault});
-      else if (!has_result(k))
-        throw NestedError(
-            title(k) +
-            ": its result did not come into the cache; is the folder the same for all processes?");
-      else
-        state_.results.made_elsewhere(kept_keys_[k], plan_.description->name);
-      if (failed.size() >= most_failures && plan_.on_error == OnError::stop) settle(failed);
-    });
-  const auto made = failed;
-  for (const Failed& one : made)
-    for (std::size_t k = 0; k < items_; ++k)
-      if (missing[k] && k != one.item && kept_keys_[k] == kept_keys_[one.item])
-        failed.push_back({k, title(k) + ": as " + item_name(one.item)});
-  settle(std::move(failed));
+    if (known[k]) items.push_back(k);
+  return items;
 }
 
-/// What follows when items failed: the run stops and names them, or, where `on_error: drop` says
-/// so, their values are empty.
-void StepRun::settle(std::vector<Failed> failed) {
-  if (failed.empty()) return;
-  std::sort(failed.begin(), failed.end(),
-            [](const Failed& a, const Failed& b) { return a.item < b.item; });
-  const bool all = failed.size() >= most_failures;
-  if (plan_.on_error == OnError::drop) {
+/// Takes out of `items` those that are there from an earlier pass or run.
+void StepRun::reuse(std::vector<std::size_t>& items) {
+  const bool store = state_.results.store() != nullptr;
+  if (!store && keeping_ != Keeping::remembered) return;
+  constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+  parallel_for(items.size(), [&](std::size_t n) {
+    if (stopped()) return;
+    const Stopwatch watch(state_.books, plan_.path);
+    const std::size_t k = items[n];
+    const bool here = store && state_.results.in_store(kept_keys_[k]);
+    auto found = find(kept_keys_[k]);
+    if (!found) return;
+    if (store && !here) say_again(*found);
+    if (!state_.results.in_store(kept_keys_[k])) pins_[k] = std::move(found);
+    Stopwatch::item(item_name(k), state_.pass, true);
+    items[n] = nowhere;
+  });
+  std::erase(items, nowhere);
+}
+
+/// What follows when calls failed: the run stops and names them, or, where `on_error: drop` says so
+/// of items, their values are empty.
+void StepRun::settle() {
+  if (failures_.end_run())
+    throw NestedError(
+        failures_.sentence(plan_.path, [this](std::size_t k) { return item_name(k); }));
+  for (const Failures::Failed& one : failures_.all()) {
     dropped_ = true;
-    for (const Failed& one : failed) {
-      state_.books.warn(plan_.path,
-                        one.sentence + "; " + item_name(one.item) + " is dropped (on_error: drop)");
-      StoredResult empty;
-      for (const auto& output : plan_.description->outputs)
-        empty.outputs.push_back({AnyValue{output.type, output.type->code->empty()}});
-      kept_keys_[one.item] =
-          joined_key(kept_keys_[one.item], {0x64726f70, 0});  // not that of the true result
-      kept(kept_keys_[one.item], std::move(empty), pins_[one.item]);
-    }
-    return;
+    state_.books.warn(plan_.path,
+                      one.sentence + "; " + item_name(one.item) + " is dropped (on_error: drop)");
+    StoredResult empty;
+    for (const auto& output : plan_.description->outputs)
+      empty.outputs.push_back({AnyValue{output.type, output.type->code->empty()}});
+    kept_keys_[one.item] =
+        joined_key(kept_keys_[one.item], {0x64726f70, 0});  // not that of the true result
+    kept(kept_keys_[one.item], std::move(empty), pins_[one.item]);
   }
-  std::string sentence = failed.front().sentence;
-  if (failed.size() > 1) {
-    sentence += "; " + std::to_string(failed.size() - 1) + (all ? " or more" : "") +
-                " further items of step '" + plan_.path + "' failed:";
-    for (std::size_t f = 1; f < failed.size() && f < 6; ++f)
-      sentence += (f > 1 ? ", " : " ") + item_name(failed[f].item);
-    if (failed.size() > 6) sentence += ", ...";
-  }
-  throw NestedError(sentence);
 }
 
 /// A result that left memory comes back from the store; what is gone from there (pruned, damaged)

@@ -51,7 +51,7 @@ bool StepRun::recall() {
   auto known = store->index()->recalled(recall_key_);
   if (!known || !fits(*known)) return false;
   const bool whole = !itemwise() && !lazy(), items = itemwise() && keeping_ != Keeping::passing;
-  if (state_.executor && (whole || items) && !all_in_store(*known)) return false;
+  if (state_.executor.elsewhere() && (whole || items) && !all_in_store(*known)) return false;
   if (whole && !take_numbers(known->numbers)) return false;
   StoredResult said;
   for (const CountOf& count : known->counts) said.counts.emplace_back(count.what, count.n);
@@ -137,7 +137,7 @@ void StepRun::remember() {
   Store* store = state_.results.store();
   if (!store || !store->index() || recalled_ || said_in_full_ || dropped_ || remembered_) return;
   // What workers say of what passes through their calls does not come home in full.
-  if (made_when_asked() && (state_.executor || !all_asked())) return;
+  if (made_when_asked() && (state_.executor.elsewhere() || !all_asked())) return;
   remembered_ = true;
   Recalled known;
   known.items = kept_keys_;

@@ -5,7 +5,7 @@
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/item_context.hpp"
-#include "plumb/store/blob.hpp"
+#include "plumb/engine/run/schedule.hpp"
 
 namespace plumb {
 
@@ -150,85 +150,31 @@ SharedResult StepRun::kept(const Hash128& key, StoredResult result, SharedResult
   return made;
 }
 
-void StepRun::make_one(std::size_t k, const Hash128& expected, Reply& reply) {
-  const Hash128 key = call_key(k);
-  if (key != expected)
-    throw MachineryError(title(k) +
-                         ": what it works on is not the same here as in the run; did an input "
-                         "change meanwhile, or has this worker other plugins?");
+void StepRun::make_here(std::size_t k) {
+  const Stopwatch watch(state_.books, plan_.path);
   StoredResult said;
   auto outputs = call(k, &said);
-  for (const auto& [what, n] : said.counts) reply.counts.push_back({what, n});
-  for (const PortOutput& output : outputs) reply.lazy.push_back(output.lazy.keys);
-  const StoredResult result = result_of(outputs, std::move(said));
-  if (lazy())
-    reply.result = blob_of(key, result, plan_.description->name);
-  else if (!state_.results.store()->put(key, result, plan_.description->name))
-    throw MachineryError(title(k) + ": its result cannot be kept in the cache (" +
-                         state_.results.store()->fault() +
-                         "); make room, or name another with --cache-dir");
-}
-
-/// What a call said in another process, as if it had been made here, and that it was made.
-void StepRun::book(const Reply& reply) {
-  StoredResult said;
-  for (const Counted& count : reply.counts) {
-    state_.books.count(plan_.path, count.what, count.n);
-    said.counts.emplace_back(count.what, count.n);
-  }
-  const std::string own_sentences = plan_.path + ": ";
-  for (const std::string& sentence : reply.warnings) {
-    state_.books.say(sentence.substr(0, sentence.find(':')), sentence);
-    if (sentence.starts_with(own_sentences))
-      said.warnings.push_back(sentence.substr(own_sentences.size()));
-  }
   note(said);
-  double own = 0;
-  for (const Spent& spent : reply.spent)
-    if (spent.path == plan_.path)
-      own += spent.cpu_seconds;
-    else
-      state_.books.add_time(spent.path, spent.cpu_seconds);
-  if (reply.process) state_.books.memory().add_process(static_cast<int>(reply.process));
-  const auto end = Bookkeeping::Clock::now();
-  const auto seconds = std::chrono::duration_cast<Bookkeeping::Clock::duration>(
-      std::chrono::duration<double>(reply.seconds));
-  if (!reply.fault.empty()) return state_.books.add_time(plan_.path, own);
-  state_.books.item({plan_.path, item_name(reply.item), state_.pass, false, end - seconds, end, own,
-                     static_cast<int>(reply.process), 0});
-}
-
-void StepRun::book_passed(const PassedCounts& passed) {
-  if (passed.output >= asked_.size() || passed.item >= count(static_cast<int>(passed.output)) ||
-      !first_asked(passed.output, passed.item))
-    return;
-  for (const Counted& count : passed.counts) state_.books.count(plan_.path, count.what, count.n);
-}
-
-bool StepRun::adopt_result(std::size_t k) {
-  const Hash128& key = key_of_call(k);
-  Results& results = state_.results;
-  if (!results.store()->contains(key)) return false;
-  results.made_elsewhere(key, plan_.description->name);
-  const auto found = find(key);
-  if (found) say_again(*found);
-  return found != nullptr;
-}
-
-void StepRun::require_in_store() const {
-  const Results& results = state_.results;
-  bool all = true;
   if (itemwise())
-    for (const Hash128& key : kept_keys_) all &= results.in_store(key);
+    kept(kept_keys_[k], result_of(outputs, std::move(said)), pins_[k]);
   else
-    all = results.in_store(whole_key_);
-  if (!all)
-    throw Error(
-        "step '" + plan_.path +
-        "': not all of its results are in the cache, from which workers take them" +
-        (results.store()->fault().empty()
-             ? std::string("; run again")
-             : " (" + results.store()->fault() + "); make room, or name another with --cache-dir"));
+    take_whole(std::move(outputs), std::move(said));
+  Stopwatch::item(item_name(k), state_.pass, false);
+}
+
+/// Has calls made; what fails is in failures_. Calls that are left out need a reason: this step
+/// fails, or another one did.
+void StepRun::make(const std::vector<std::size_t>& calls) {
+  std::size_t told = 0;
+  const bool begins = !stopped();   // else it may not even be known what is missing
+  if (state_.executor.elsewhere())  // what workers put into the store is to stay there
+    for (const std::size_t k : calls) state_.results.store()->hold({&key_of_call(k), 1});
+  if (begins && !calls.empty())
+    state_.executor.make(*this, calls, [&](std::size_t k, const std::string& fault) {
+      ++told;
+      if (!fault.empty()) failures_.add(k, fault);
+    });
+  if ((!begins || told < calls.size()) && !failures_.end_run()) throw LeftOut();
 }
 
 std::size_t StepRun::count(int output) {

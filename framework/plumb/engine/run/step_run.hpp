@@ -16,8 +16,8 @@
 #include "plumb/engine/cache/results.hpp"
 #include "plumb/engine/observe/bookkeeping.hpp"
 #include "plumb/engine/plan/lifetime.hpp"
-#include "plumb/engine/run/admission.hpp"
 #include "plumb/engine/run/executor.hpp"
+#include "plumb/engine/run/failures.hpp"
 #include "plumb/pipeline/bind/plan.hpp"
 #include "plumb/plugin/step.hpp"
 #include "plumb/store/index.hpp"
@@ -37,9 +37,9 @@ struct Source {
 struct RunState {
   Bookkeeping& books;
   Results& results;
-  Admission& admission;
-  Executor* executor = nullptr;  ///< none: calls are made in this process
-  int pass = -1;                 ///< of the innermost repeat around the step
+  Executor& executor;
+  int pass = -1;                            ///< of the innermost repeat around the step
+  const std::atomic<bool>* stop = nullptr;  ///< set when a step has failed: no call begins then
   /// In a worker: takes what steps count whose frames pass through a call, instead of the books.
   std::function<void(const StepRun& run, std::size_t output, std::size_t item,
                      const StoredResult& said)>
@@ -48,23 +48,37 @@ struct RunState {
 
 /// One step in one pass, for whoever asks it: for its items, their keys, its values.
 ///
+/// One thread starts it; when start() has returned, and what it gave is explained and remembered,
+/// others may ask it, several at a time. Nothing that they read changes any more but what is
+/// atomic, behind said_mutex_ or made once behind a once_flag.
+///
 /// Larger than a class should be (tests/tree/size_test.py): whether a value is recalled, found,
 /// made here or elsewhere, passes through or was dropped is one state that all of these questions
-/// read and change. By file: step_call (one call), step_items, step_whole, step_recall, step_facts.
+/// read and change. By file: step_call (one call), step_items, step_whole, step_elsewhere (calls in
+/// other processes), step_recall, step_facts.
 class StepRun : public std::enable_shared_from_this<StepRun> {
  public:
   StepRun(const PlannedStep& plan, const Step& step, ParameterValues values,
           std::vector<std::vector<Source>> inputs, Keeping keeping, RunState state);
 
   /// Makes everything that is to be kept, the whole step or all its items, unless an earlier run
-  /// left all of it.
+  /// left all of it. Throws LeftOut (schedule.hpp) when another step failed meanwhile.
   void start();
   /// Remembers what was made for later runs. Asked after start(), with the facts; of what is made
   /// when it is asked for, when nobody will ask any more.
   void remember();
-  /// In a worker: takes over what another process made and put into the store, by its keys.
-  void adopt_items(std::vector<Hash128> keys, Source list);
-  void adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list);
+  /// Makes one call and keeps what it gave. Throws NestedError when the call fails.
+  void make_here(std::size_t k);
+  /// Takes over what another process made of a call: books what it said, and, unless it failed,
+  /// finds its result. Throws NestedError when the call is not to blame.
+  void take(const Reply& reply);
+  /// Whether calls that have not begun are to be left out: too many failed, or another step did.
+  bool stopped() const { return failures_.enough() || (state_.stop && *state_.stop); }
+  /// Memory that a call on an item may need [bytes], about.
+  std::size_t expected_bytes(std::size_t k);
+  /// In a worker: takes over what another process made and put into the store, by its keys: one an
+  /// item, or that of a whole step with the hashes of its values, by output.
+  void adopt(std::vector<Hash128> keys, std::vector<std::vector<Hash128>> values, Source list);
   /// In a worker: joins the inputs of a step whose calls are asked for one by one.
   void join();
   /// In a worker: makes one call, puts its result into the store under the `expected` key unless
@@ -118,10 +132,6 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   void require_in_store() const;
 
  private:
-  struct Failed {
-    std::size_t item;
-    std::string sentence;
-  };
   // step_call.cpp: what one call sees
   std::vector<PortInput> gather(std::size_t k);
   Hash128 call_key(std::size_t k);
@@ -129,8 +139,6 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts);
   ItemPlace place_of(std::size_t k);
   SeenPart part_of(std::size_t port, std::size_t k);
-  std::size_t expected_bytes(std::size_t k);
-  static std::uint64_t seed_of(const std::vector<PortInput>& inputs);
   std::vector<PortOutput> call(std::size_t k, StoredResult* said);
   void require_sound(const AnyValue& value, std::size_t output) const;
   void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k);
@@ -155,26 +163,23 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   // step_items.cpp: the items of an item-wise step
   void find_items();
   void require_ends();
-  [[noreturn]] void refuse_counts(const std::string& one, std::size_t have,
-                                  const std::string& other, std::size_t wanted) const;
   void start_items();
-  void make_items_here();
-  void make_items_elsewhere();
-  void settle(std::vector<Failed> failed);
-  bool reuse(std::size_t k);
-  void make_item(std::size_t k);
+  std::vector<std::size_t> find_keys();
+  void reuse(std::vector<std::size_t>& items);
+  void settle();
   SharedResult fetch(std::size_t k);
   std::vector<AnyValue> pass(std::size_t k);
   // step_whole.cpp: a step on whole collections
   void start_whole();
   void take_whole(std::vector<PortOutput> outputs, StoredResult said);
   bool find_whole();
-  void make_whole_elsewhere();
+  bool take_whole_from(const Reply& reply);
   void name_values();
   void check_items(std::size_t output);
   const Source* source_over(std::size_t output) const;
   SharedResult whole();
   // both
+  void make(const std::vector<std::size_t>& calls);
   const Hash128& key_of_call(std::size_t k) const {
     return itemwise() ? kept_keys_[k] : whole_key_;
   }
@@ -210,6 +215,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   bool said_in_full_ = false;  ///< what it counts was said already
   bool dropped_ = false;       ///< an item failed and has an empty value
   bool remembered_ = false;
+  Failures failures_{plan_.on_error == OnError::stop || !itemwise()};
   std::vector<AnyValue> numbers_;  ///< by output: recalled values with numbers
   Facts facts_;
   std::once_flag joined_, listed_;

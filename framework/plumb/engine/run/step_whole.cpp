@@ -31,15 +31,8 @@ void StepRun::start_whole() {
   if (find_whole()) {
     Stopwatch::item("", state_.pass, true);
   } else {
-    if (state_.executor) {
-      make_whole_elsewhere();
-    } else {
-      StoredResult said;
-      auto outputs = call(0, &said);
-      note(said);
-      take_whole(std::move(outputs), std::move(said));
-      Stopwatch::item("", state_.pass, false);
-    }
+    make({0});
+    settle();
   }
   name_values();
   if (!state_.results.store()) inputs_.clear();
@@ -73,41 +66,27 @@ void StepRun::take_whole(std::vector<PortOutput> outputs, StoredResult said) {
   if (stays) whole_pin_ = std::move(made);
 }
 
-void StepRun::make_whole_elsewhere() {
-  state_.executor->make(*this, {0}, [&](const Reply& reply) {
-    book(reply);
-    if (!reply.fault.empty()) throw NestedError(reply.fault);
-    lazy_.resize(plan_.description->outputs.size());
-    for (std::size_t o = 0; o < std::min(reply.lazy.size(), lazy_.size()); ++o) {
-      lazy_[o].keys = reply.lazy[o];
-      lazy_[o].open = [](std::size_t, Context&) -> AnyValue {
-        throw Error(
-            "its values are made by workers alone; a result was lost from the cache meanwhile: run "
-            "again, it is made anew");
-      };
-    }
-    if (lazy()) {
-      auto result = read_blob(whole_key_, reply.result);
-      if (!result || !misfit_of(*result).empty())
-        throw NestedError(title(0) + ": its worker gave a result that cannot be read; run again");
-      whole_pin_ = std::make_shared<const StoredResult>(std::move(*result));
-    } else {
-      state_.results.made_elsewhere(whole_key_, plan_.description->name);
-      auto found = find(whole_key_);
-      if (!found)
-        throw NestedError(
-            title(0) +
-            ": its result did not come into the cache; is the folder the same for all processes?");
-      if (stays_in_memory(*found)) whole_pin_ = std::move(found);
-    }
-  });
-}
-
-void StepRun::adopt_whole(const Hash128& key, std::vector<std::vector<Hash128>> keys, Source list) {
-  if (list.run) list_ = list.run->value(list.output);
-  list_source_ = std::move(list);
-  whole_key_ = key;
-  whole_keys_ = std::move(keys);
+/// Whether it is there.
+bool StepRun::take_whole_from(const Reply& reply) {
+  if (!lazy()) {
+    auto found = find(whole_key_);
+    if (found && stays_in_memory(*found)) whole_pin_ = found;
+    return found != nullptr;
+  }
+  lazy_.resize(plan_.description->outputs.size());
+  for (std::size_t o = 0; o < std::min(reply.lazy.size(), lazy_.size()); ++o) {
+    lazy_[o].keys = reply.lazy[o];
+    lazy_[o].open = [](std::size_t, Context&) -> AnyValue {
+      throw Error(
+          "its values are made by workers alone; a result was lost from the cache meanwhile: run "
+          "again, it is made anew");
+    };
+  }
+  auto result = read_blob(whole_key_, reply.result);
+  if (!result || !misfit_of(*result).empty())
+    throw NestedError(title(0) + ": its worker gave a result that cannot be read; run again");
+  whole_pin_ = std::make_shared<const StoredResult>(std::move(*result));
+  return true;
 }
 
 /// Gives every value its key, by content; what is lazy by what its step says of it.

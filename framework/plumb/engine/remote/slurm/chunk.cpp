@@ -44,6 +44,7 @@ void make_chunk(const std::filesystem::path& file, std::size_t number, std::size
         Notice begins;
         begins.reply.item = item;
         write(begins);
+        return true;
       });
 }
 

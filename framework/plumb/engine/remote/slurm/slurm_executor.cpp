@@ -23,8 +23,7 @@ constexpr std::size_t most_chunks = 1000;
 /// The calls of one step run until each has a result or is set aside.
 class Calls {
  public:
-  Calls(StepRun& run, const Prepared& work, unsigned tries,
-        const std::function<void(const Reply&)>& done)
+  Calls(StepRun& run, const Prepared& work, unsigned tries, const Executor::Done& done)
       : run_(run), work_(work), tries_(tries), done_(done) {
     for (const Call& call : work.task.calls) open_[call.item] = &call;
   }
@@ -85,12 +84,13 @@ class Calls {
     open_.erase(item);
     reply.process = 0;  // of another machine: its number means nothing here
     book_passed(reply, work_.runs);
-    done_(reply);
+    run_.take(reply);
+    done_(reply.item, reply.fault);
   }
   StepRun& run_;
   const Prepared& work_;
   unsigned tries_;
-  const std::function<void(const Reply&)>& done_;
+  const Executor::Done& done_;
   std::map<std::size_t, const Call*> open_;
   std::map<std::size_t, unsigned> begun_, crashed_;
   std::size_t begun_in_all_ = 0;
@@ -109,13 +109,13 @@ bool SlurmExecutor::worth_submitting(const Reply& first, std::size_t more) const
   return first.seconds * static_cast<double>(more) / threads_ >= options_.profile.submit_above;
 }
 
-void SlurmExecutor::make(StepRun& run, const std::vector<std::size_t>& calls,
-                         const std::function<void(const Reply&)>& done) {
+void SlurmExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, const Done& done) {
   Prepared work = prepared(run, calls, threads_);
+  const auto tell = [&](const Reply& reply) { done(reply.item, reply.fault); };
   const auto here = [&](const Task& task, const std::function<void(const Reply&)>& taken) {
-    make_by(pool_, task, work.runs, taken);
+    make_by(pool_, run, task, work.runs, taken);
   };
-  if (!run.itemwise()) return here(work.task, done);
+  if (!run.itemwise()) return here(work.task, tell);
   Task first = work.task, rest = work.task;
   first.calls.resize(1);
   rest.calls.erase(rest.calls.begin());
@@ -125,10 +125,10 @@ void SlurmExecutor::make(StepRun& run, const std::vector<std::size_t>& calls,
     rest = work.task, submit = true;
   else
     here(first, [&](const Reply& reply) {
-      submit = !reply.fault.empty() || worth_submitting(reply, rest.calls.size()), done(reply);
+      submit = !reply.fault.empty() || worth_submitting(reply, rest.calls.size()), tell(reply);
     });
   if (rest.calls.empty()) return;
-  if (!submit) return here(rest, done);
+  if (!submit) return here(rest, tell);
   work.task = std::move(rest);
   submit_and_wait(run, std::move(work), done);
 }
@@ -165,14 +165,15 @@ Submission submission_of(const SlurmOptions& options, const std::string& step,
   return submission;
 }
 
-/// Takes what the chunks of a job write until it is over or no call is open; how many it settled.
+/// Takes what the chunks of a job write until it is over, no call is open or the rest is to be left
+/// out; how many it settled.
 std::size_t take_until_over(SlurmQueue& queue, const std::string& job, double poll, StepRun& run,
                             JobFolder& folder, Calls& calls) {
   std::size_t settled = 0;
   double pause = 0.1, unanswered = 0;
   for (;;) {
     settled += calls.take(folder.news());
-    if (calls.all_settled()) break;
+    if (calls.all_settled() || run.stopped()) return settled;
     const JobState state = queue.state(job);
     if (state == JobState::over) break;
     if (state != JobState::unknown)
@@ -189,8 +190,7 @@ std::size_t take_until_over(SlurmQueue& queue, const std::string& job, double po
 
 }  // namespace
 
-void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
-                                    const std::function<void(const Reply&)>& done) {
+void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const Done& done) {
   Hasher name;  // what the calls see, too: a job for other inputs is another job
   name.text(work.task.image);
   for (const Hash128& key : run.item_keys()) name.bytes(&key, sizeof key);
@@ -212,7 +212,7 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
   }
   const CancelUnlessOver guard{queue_, job, mine};
   std::size_t begun = 0;
-  for (int idle = 0; !calls.all_settled();) {
+  for (int idle = 0; !calls.all_settled() && !run.stopped();) {
     if (job.empty()) {
       if (idle == most_idle_submissions)
         throw Error("step '" + run.plan().path + "': Slurm ended its job " +
@@ -228,11 +228,12 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work,
     }
     const std::size_t settled =
         take_until_over(queue_, job, options_.profile.poll, run, folder, calls);
+    if (run.stopped()) return;  // and the job is cancelled
     idle = settled > 0 || calls.begun_in_all() > begun ? 0 : idle + 1;
     begun = calls.begun_in_all();
     job.clear();
   }
-  folder.remove();
+  if (calls.all_settled()) folder.remove();
 }
 
 }  // namespace plumb

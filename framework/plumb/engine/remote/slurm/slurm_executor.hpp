@@ -17,19 +17,19 @@ struct SlurmOptions {
                                            ///< --task, --chunk-size and --chunk are added
 };
 
-/// Steps on whole collections, and steps with little to do, are made by workers on this machine.
-/// Safe to kill: a later run of the same pipeline finds the job of a step that still runs and waits
-/// for it.
+/// Steps on whole collections, and steps with little to do, are made by workers on this machine,
+/// one step at a time. Jobs of several steps may run at the same time. Safe to kill: a later run of
+/// the same pipeline finds the job of a step that still runs and waits for it.
 class SlurmExecutor final : public Executor {
  public:
   /// Throws Error when Slurm does not answer or has no such partition.
   SlurmExecutor(SlurmOptions options, WorkerOptions here);
-  void make(StepRun& run, const std::vector<std::size_t>& calls,
-            const std::function<void(const Reply&)>& done) override;
+  void make(StepRun& run, const std::vector<std::size_t>& calls, const Done& done) override;
+  bool elsewhere() const override { return true; }
 
  private:
   bool worth_submitting(const Reply& first, std::size_t more) const;
-  void submit_and_wait(StepRun& run, Prepared work, const std::function<void(const Reply&)>& done);
+  void submit_and_wait(StepRun& run, Prepared work, const Done& done);
   SlurmOptions options_;
   unsigned threads_;
   WorkerPool pool_;

@@ -139,10 +139,8 @@ std::shared_ptr<StepRun> ImageRuns::make(const ImageRun& from, const Registry& r
       run->start();
       break;
     case ImageRole::whole:
-      run->adopt_whole(from.keys.at(0), from.value_keys, std::move(list));
-      break;
     case ImageRole::items:
-      run->adopt_items(from.keys, std::move(list));
+      run->adopt(from.keys, from.value_keys, std::move(list));
       break;
   }
   return run;

@@ -19,18 +19,22 @@ void book_passed(const Reply& reply, const std::vector<StepRun*>& runs) {
     if (passed.run < runs.size()) runs[passed.run]->book_passed(passed);
 }
 
-void make_by(WorkerPool& pool, const Task& task, const std::vector<StepRun*>& runs,
-             const std::function<void(const Reply&)>& done) {
-  pool.make(task, [&](const Reply& reply) {
-    book_passed(reply, runs);
-    done(reply);
-  });
+void make_by(WorkerPool& pool, StepRun& run, const Task& task, const std::vector<StepRun*>& runs,
+             const std::function<void(const Reply&)>& taken) {
+  pool.make(
+      task,
+      [&](const Reply& reply) {
+        book_passed(reply, runs);
+        run.take(reply);
+        taken(reply);
+      },
+      [&](std::size_t) { return !run.stopped(); });
 }
 
-void IsolatedExecutor::make(StepRun& run, const std::vector<std::size_t>& calls,
-                            const std::function<void(const Reply&)>& done) {
+void IsolatedExecutor::make(StepRun& run, const std::vector<std::size_t>& calls, const Done& done) {
   const Prepared work = prepared(run, calls, threads_);
-  make_by(pool_, work.task, work.runs, done);
+  make_by(pool_, run, work.task, work.runs,
+          [&](const Reply& reply) { done(reply.item, reply.fault); });
 }
 
 }  // namespace plumb

@@ -17,16 +17,18 @@ Prepared prepared(StepRun& run, const std::vector<std::size_t>& calls, unsigned 
 /// Books what steps counted whose values passed through a call, each value once.
 void book_passed(const Reply& reply, const std::vector<StepRun*>& runs);
 
-/// Has `pool` make the calls of `task`; `runs` are those of the task's image.
-void make_by(WorkerPool& pool, const Task& task, const std::vector<StepRun*>& runs,
-             const std::function<void(const Reply&)>& done);
+/// Has `pool` make the calls of `task`, which are calls of `run`, and tells of each that `run` has
+/// taken; `runs` are those of the task's image.
+void make_by(WorkerPool& pool, StepRun& run, const Task& task, const std::vector<StepRun*>& runs,
+             const std::function<void(const Reply&)>& taken);
 
+/// Its pool takes one step's calls at a time; meanwhile this process may do its own part of others.
 class IsolatedExecutor final : public Executor {
  public:
   explicit IsolatedExecutor(WorkerOptions options)
       : threads_(options.workers), pool_(std::move(options)) {}
-  void make(StepRun& run, const std::vector<std::size_t>& calls,
-            const std::function<void(const Reply&)>& done) override;
+  void make(StepRun& run, const std::vector<std::size_t>& calls, const Done& done) override;
+  bool elsewhere() const override { return true; }
 
  private:
   unsigned threads_;

@@ -72,14 +72,18 @@ Reply WorkerPool::ask(std::unique_ptr<WorkerProcess>& worker, std::uint64_t& has
 }
 
 void WorkerPool::make(const Task& task, const std::function<void(const Reply&)>& done,
-                      const std::function<void(std::size_t)>& begins) {
+                      const std::function<bool(std::size_t)>& begins) {
+  const std::lock_guard one_task(mutex_);
   ++task_;
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   std::exception_ptr failure;
   const auto serve = [&](std::size_t slot) {
     for (std::size_t c = next++; c < task.calls.size(); c = next++) try {
-        if (begins) begins(task.calls[c].item);
+        if (!begins(task.calls[c].item)) {
+          next = task.calls.size();
+          return;
+        }
         const Reply reply = ask(workers_[slot], images_[slot], task, task.calls[c]);
         const std::lock_guard lock(mutex);
         if (failure) return;

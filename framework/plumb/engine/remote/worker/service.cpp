@@ -15,6 +15,7 @@
 #include "plumb/engine/remote/worker/process.hpp"
 #include "plumb/engine/remote/worker/task.hpp"
 #include "plumb/engine/run/item_context.hpp"
+#include "plumb/engine/run/local_executor.hpp"
 #include "plumb/engine/run/parallel.hpp"
 
 namespace plumb {
@@ -40,10 +41,7 @@ std::size_t memory_for_results(std::size_t memory) {
 class Service {
  public:
   Service(const Registry& registry, Store& store, std::size_t memory)
-      : registry_(registry),
-        books_(silent_),
-        results_(&store, false, memory_for_results(memory)),
-        admission_(0) {}
+      : registry_(registry), books_(silent_), results_(&store, false, memory_for_results(memory)) {}
 
   Reply answer(const Request& request) {
     Reply reply;
@@ -77,9 +75,9 @@ class Service {
     runs_.reset();
     const RunState state{books_,
                          results_,
-                         admission_,
-                         nullptr,
+                         executor_,
                          -1,
+                         nullptr,
                          [this](const StepRun& run, std::size_t output, std::size_t item,
                                 const StoredResult& said) { passed(run, output, item, said); }};
     try {
@@ -106,7 +104,7 @@ class Service {
   Observers silent_;
   Bookkeeping books_;
   Results results_;
-  Admission admission_;
+  LocalExecutor executor_{0};  ///< of sources that are opened again
   ImageRuns::Opened opened_;
   std::optional<ImageRuns> runs_;
   std::string fault_ = "a call came before its image";
