@@ -52,7 +52,8 @@ struct Segment {
 
   /// Where the sensor stood, in segment coordinates [m], when it saw point k.
   Eigen::Vector3f origin(std::size_t k) const {
-    return range.T_segment_frame[frame[k]].translation.cast<float>();
+    const Eigen::Vector3d& t = range.T_segment_frame[frame[k]].translation;
+    return {static_cast<float>(t.x()), static_cast<float>(t.y()), static_cast<float>(t.z())};
   }
   /// The same segment with another cloud; centroid and box follow.
   Segment with(Cloud other, std::vector<std::uint16_t> frames) const;

@@ -1,11 +1,11 @@
 #include "scan_pair.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "plumb/slam/geometry/search_tree.hpp"
+#include "plumb/slam/geometry/symmetric.hpp"
 #include "shared/selection/evenly.hpp"
 #include "shared/thinning/voxel_means.hpp"
 
@@ -106,7 +106,7 @@ Pose ScanTarget::aligned(const std::vector<Eigen::Vector3f>& source, Pose T) {
       h.noalias() += w * row * row.transpose();
       g.noalias() += w * r * row;
     }
-    const Vector6d step = -h.ldlt().solve(g);
+    const Vector6d step = -solve_symmetric(h, g);
     T = {(T.rotation * exp_rotation(Eigen::Vector3d(step[3], step[4], step[5]))).normalized(),
          T.translation + Eigen::Vector3d(step[0], step[1], step[2])};
     if (step.norm() < 1e-4) break;

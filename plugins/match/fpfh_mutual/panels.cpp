@@ -1,8 +1,9 @@
 #include "panels.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "plumb/slam/geometry/symmetric.hpp"
 
 namespace plumb::match_fpfh_mutual {
 namespace {
@@ -72,8 +73,8 @@ PrincipalAxes::PrincipalAxes(std::span<const float> a, std::span<const float> b,
   mean = points.rowwise().mean();
   points.colwise() -= mean;
   const Eigen::MatrixXd spread = points * points.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(spread);
-  if (eigen.info() == Eigen::Success) axes = eigen.eigenvectors().rowwise().reverse();
+  const SymmetricEigen eigen = symmetric_eigen(spread);
+  if (eigen.converged) axes = eigen.vectors.rowwise().reverse();
 }
 
 Panels::Panels(std::span<const float> vectors, const PrincipalAxes& principal, std::size_t width)

@@ -1,12 +1,11 @@
 #include "plumb/slam/step.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "loop_consistency.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/geometry/symmetric.hpp"
 #include "plumb/slam/registration.hpp"
 
 namespace plumb::prune_loop_consistency {
@@ -158,14 +157,13 @@ struct PruneLoopConsistency : WholeStep {
   /// which it knows nothing stay unknown.
   static Matrix6d widened(const Matrix6d& information, const Params& params) {
     if (information.isZero(0)) return Matrix6d::Zero();
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
-    const Vector6d values =
-        eigen.eigenvalues().cwiseMax(1e-9 * std::max(eigen.eigenvalues().maxCoeff(), 1e-300));
-    Matrix6d covariance = eigen.eigenvectors() * values.cwiseInverse().asDiagonal() *
-                          eigen.eigenvectors().transpose();
+    const SymmetricEigen eigen = symmetric_eigen(information);
+    const Vector6d values = eigen.values.cwiseMax(1e-9 * std::max(eigen.values.maxCoeff(), 1e-300));
+    const Matrix6d vectors = eigen.vectors;
+    Matrix6d covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
     covariance.diagonal().head<3>().array() += std::pow(params.translation_sigma, 2);
     covariance.diagonal().tail<3>().array() += std::pow(params.rotation_sigma, 2);
-    return covariance.ldlt().solve(Matrix6d::Identity());
+    return inverse_of_symmetric(covariance);
   }
 };
 

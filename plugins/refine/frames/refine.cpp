@@ -1,9 +1,9 @@
 #include "refine.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/slam/geometry/symmetric.hpp"
 #include "shared/selection/evenly.hpp"
 
 namespace plumb::refine_frames {
@@ -84,7 +84,7 @@ FramePose registered(const Cloud& cloud, const Pose& start, const std::vector<Ta
     Matrix6d h = unit * sums.h;
     h.diagonal() += prior;
     const Vector6d g = unit * sums.g + prior.cwiseProduct(moved);
-    const Vector6d step = -h.ldlt().solve(g);
+    const Vector6d step = -solve_symmetric(h, g);
     result.T_world_frame = {
         (result.T_world_frame.rotation * exp_rotation(Eigen::Vector3d(step[3], step[4], step[5])))
             .normalized(),

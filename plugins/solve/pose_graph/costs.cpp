@@ -1,11 +1,11 @@
 #include "costs.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/short_number.hpp"
+#include "plumb/slam/geometry/symmetric.hpp"
 #include "pose_manifold.hpp"
 
 namespace plumb::solve_pose_graph {
@@ -166,12 +166,12 @@ bool AbsolutePointCost::Evaluate(double const* const* poses, double* residuals,
 Eigen::MatrixXd information_root(const Eigen::MatrixXd& information) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(information);
   if (cholesky.info() == Eigen::Success) return cholesky.matrixU();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
-  const auto& values = eigen.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(information);
+  const Eigen::VectorXd& values = eigen.values;
   if (!(values.minCoeff() >= -1e-9 * values.cwiseAbs().maxCoeff()))
     throw Error("an information matrix has the negative eigenvalue " +
                 short_number(values.minCoeff()) + "; it must be positive semidefinite");
-  return values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  return values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
 ChordalWeights chordal_weights(const Matrix6d& information, bool planar) {

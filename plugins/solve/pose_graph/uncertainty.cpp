@@ -1,12 +1,12 @@
 #include "uncertainty.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "marginals.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/slam/geometry/symmetric.hpp"
 
 namespace plumb::solve_pose_graph {
 
@@ -61,7 +61,7 @@ void add_uncertainty(const Terms& terms, const GraphOptions& options,
     const double away =
         first < covariances.size() ? (pose.translation - terms.pose(first).translation).norm() : 0;
     covariance.diagonal().head<3>().array() += std::pow(options.uncertainty_per_metre * away, 2);
-    result.uncertainty.absolute.push_back({k, pose, covariance.ldlt().solve(Matrix6d::Identity())});
+    result.uncertainty.absolute.push_back({k, pose, inverse_of_symmetric(covariance)});
   }
   result.metrics.add("variance_factor", variance, "");
 }

@@ -1,11 +1,11 @@
 #include "table.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
 
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/slam/geometry/symmetric.hpp"
 
 namespace plumb::write_uncertainty {
 
@@ -15,7 +15,7 @@ std::vector<PoseUncertainty> uncertainty_of(const Constraints& constraints, std:
     if (pose.i >= segments)
       throw Error("the uncertainty names segment " + std::to_string(pose.i) + ", but got " +
                   counted(segments, "segments") + ": wire ranges of the segments that were solved");
-    const Matrix6d covariance = pose.information.ldlt().solve(Matrix6d::Identity());
+    const Matrix6d covariance = inverse_of_symmetric(pose.information);
     const Eigen::Matrix3d R = pose.T_world_i.matrix();
     of[pose.i].position = R * covariance.topLeftCorner<3, 3>() * R.transpose();
     of[pose.i].rotation = 4 * R * covariance.bottomRightCorner<3, 3>() *

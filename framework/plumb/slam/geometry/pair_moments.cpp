@@ -1,9 +1,30 @@
 #include "plumb/slam/geometry/pair_moments.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "plumb/slam/geometry/symmetric.hpp"
+
 namespace plumb {
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Vector13d PairReference::coordinates(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const {
+  Vector13d y;
+  const Eigen::Matrix3d r0 = T_j_i.matrix();
+  for (int d = 0; d < 3; ++d) y.segment<3>(3 * d) = (r.row(d) - r0.row(d)).transpose();
+  // s - s0 = (R - R0) centre + (t - t0), which loses nothing where both are near.
+  y.segment<3>(9) = (r - r0) * centre + (t - T_j_i.translation);
+  y[12] = 1;
+  return y;
+}
+
+Vector13d PairForm::residual(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const {
+  return factor * about.coordinates(r, t);
+}
 
 Matrix13d PointPairSums::moments() const {
   Matrix13d m = Matrix13d::Zero();
@@ -33,9 +54,10 @@ Matrix13d factor_of(const Matrix13d& moments) {
   const Vector13d scale = moments.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Vector13d back = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   const Matrix13d scaled = back.asDiagonal() * moments * back.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix13d> eigen(scaled);
-  const Vector13d root = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return root.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const Vector13d root = eigen.values.cwiseMax(0.0).cwiseSqrt();
+  const Matrix13d vectors = eigen.vectors;
+  return root.asDiagonal() * vectors.transpose() * scale.asDiagonal();
 }
 
 Eigen::Matrix<double, 13, 6> PairForm::jacobian(const Eigen::Matrix3d& r) const {

@@ -20,11 +20,8 @@ namespace plumb {
 using Vector13d = Eigen::Matrix<double, 13, 1>;
 using Matrix13d = Eigen::Matrix<double, 13, 13>;
 
-inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
+/// The matrix that multiplies as v x ... does.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
 /// What a sum over pairs is taken about: T_j_i and a point in i's coordinates [m], best the mean of
 /// the pairs' p.
@@ -33,15 +30,7 @@ struct PairReference {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 
   /// y of the relative pose (r, t): see the top of the file.
-  Vector13d coordinates(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const {
-    Vector13d y;
-    const Eigen::Matrix3d r0 = T_j_i.matrix();
-    for (int d = 0; d < 3; ++d) y.segment<3>(3 * d) = (r.row(d) - r0.row(d)).transpose();
-    // s - s0 = (R - R0) centre + (t - t0), which loses nothing where both are near.
-    y.segment<3>(9) = (r - r0) * centre + (t - T_j_i.translation);
-    y[12] = 1;
-    return y;
-  }
+  Vector13d coordinates(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const;
 };
 
 /// Sums of point pairs, by blocks: p' p'', p' d' and so on; 23 numbers.
@@ -99,9 +88,7 @@ struct PairForm {
   PairReference about;
   Matrix13d factor = Matrix13d::Zero();
 
-  Vector13d residual(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const {
-    return factor * about.coordinates(r, t);
-  }
+  Vector13d residual(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) const;
   /// Derivative of the residual where T_j_i moves to (R exp(w), t + v): columns v, then w.
   Eigen::Matrix<double, 13, 6> jacobian(const Eigen::Matrix3d& r) const;
 };

@@ -1,6 +1,9 @@
 #pragma once
 /// Rigid motions in space. `T_a_b` maps coordinates of b to coordinates of a, so T_a_c = T_a_b *
 /// T_b_c.
+///
+/// Functions in these headers whose bodies are expressions of Eigen stand in a .cpp: the compiler
+/// would work each of them out anew in every file that reads the header, used or not.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,65 +19,43 @@ inline constexpr double deg = std::numbers::pi / 180;
 
 /// An element of SE(3): a unit quaternion and a translation [m].
 struct Pose {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation{1, 0, 0, 0};
+  Eigen::Vector3d translation{0, 0, 0};
 
   Pose() = default;
   Pose(const Eigen::Quaterniond& q, const Eigen::Vector3d& t) : rotation(q), translation(t) {}
-  Pose(const Eigen::Matrix3d& r, const Eigen::Vector3d& t)
-      : rotation(Eigen::Quaterniond(r).normalized()), translation(t) {}
+  Pose(const Eigen::Matrix3d& r, const Eigen::Vector3d& t);
 
-  Pose inverse() const {
-    const Eigen::Quaterniond back = rotation.conjugate();
-    return {back, -(back * translation)};
-  }
-  Pose operator*(const Pose& other) const {
-    return {(rotation * other.rotation).normalized(), rotation * other.translation + translation};
-  }
-  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
-    return rotation * point + translation;
-  }
-  Eigen::Matrix3d matrix() const { return rotation.toRotationMatrix(); }
+  Pose inverse() const;
+  Pose operator*(const Pose& other) const;
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+  Eigen::Matrix3d matrix() const;
 };
 
 /// Rotation angle of `pose` [rad], 0 to pi.
-inline double angle(const Pose& pose) {
-  return 2.0 * std::atan2(pose.rotation.vec().norm(), std::abs(pose.rotation.w()));
-}
+double angle(const Pose& pose);
 
 /// Rotation vector (axis times angle [rad]) of a unit quaternion, the shorter way round.
-inline Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q) {
-  const double sign = q.w() < 0 ? -1.0 : 1.0;
-  const Eigen::Vector3d v = sign * q.vec();
-  const double sine = v.norm();
-  if (sine < 1e-12) return 2.0 * v;
-  return 2.0 * std::atan2(sine, sign * q.w()) / sine * v;
-}
+Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q);
 
 /// Unit quaternion of a rotation vector [rad]; the inverse of log_rotation.
-inline Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& w) {
-  const double theta = w.norm();
-  const double factor = theta < 1e-9 ? 0.5 - theta * theta / 48.0 : std::sin(0.5 * theta) / theta;
-  Eigen::Quaterniond q;
-  q.w() = std::cos(0.5 * theta);
-  q.vec() = factor * w;
-  return q.normalized();
-}
+Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& w);
 
 /// The pose a fraction `s` (0 to 1) of the way from `a` to `b`: linear in translation, slerp in
 /// rotation.
-inline Pose interpolate(const Pose& a, const Pose& b, double s) {
-  return {a.rotation.slerp(s, b.rotation).normalized(),
-          (1.0 - s) * a.translation + s * b.translation};
-}
+Pose interpolate(const Pose& a, const Pose& b, double s);
 
 /// A rigid motion in single precision, for moving many points of one cloud.
 struct Motion {
   Eigen::Matrix3f r;
   Eigen::Vector3f t;
-  explicit Motion(const Pose& pose)
-      : r(pose.matrix().cast<float>()), t(pose.translation.cast<float>()) {}
-  Eigen::Vector3f operator*(const Eigen::Vector3f& p) const { return r * p + t; }
+  explicit Motion(const Pose& pose);
+  Eigen::Vector3f operator*(const Eigen::Vector3f& p) const {
+    const auto row = [&](int k) {
+      return r(k, 0) * p.x() + (r(k, 1) * p.y() + r(k, 2) * p.z()) + t(k);
+    };
+    return {row(0), row(1), row(2)};
+  }
 };
 
 }  // namespace plumb
