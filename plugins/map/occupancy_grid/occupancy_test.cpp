@@ -236,12 +236,52 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
   EXPECT_GT(at(map, 4.02, 5.02), 0);
   EXPECT_LT(at(map, 4.02, 4.52), 0);
   EXPECT_EQ(context.counts["cells occupied"], 2u);
-  trajectory.stamps.pop_back();
+  trajectory.T_world_frame.pop_back(), trajectory.stamps.pop_back();
   EXPECT_THROW(StepUnderTest(*plumb_module())
                    .each<Frame>("frames", {frame, frame})
                    .with("trajectory", trajectory)
                    .run<GridMap>("map", context),
                Error);
+}
+
+/// A submap of two scans: one point 1 m ahead, one behind it that another scan saw.
+Segment submap() {
+  Cloud cloud;
+  cloud.add({1, 0, 0}), cloud.add({2, 0, 0});
+  return Segment().with(cloud, {0, 0});
+}
+
+TEST(OccupancyGridStep, DrawsSubmapsAsScansFromTheirOrigins) {
+  TestContext context;
+  Poses poses;
+  poses.T_world_segment = {{exp_rotation({0, 0, M_PI / 2}), {3.01, 4.01, 0}}};
+  StepUnderTest step(*plumb_module());
+  step.each<Segment>("submaps", {submap()}).with("poses", poses);
+  const auto map = step.run<GridMap>("map", context);
+  EXPECT_GT(at(map, 3.02, 5.02), 0);  // the ray behind it passes, and the hit wins
+  EXPECT_GT(at(map, 3.02, 6.02), 0);
+  EXPECT_LT(at(map, 3.02, 4.52), 0);
+  EXPECT_LT(at(map, 3.02, 5.52), 0);
+  EXPECT_EQ(context.counts["cells occupied"], 2u);
+  poses.T_world_segment.emplace_back();
+  EXPECT_THROW(step.with("poses", poses).run<GridMap>("map", context), Error);
+}
+
+TEST(OccupancyGridStep, TakesEitherFramesOrSubmaps) {
+  TestContext context;
+  Poses poses;
+  poses.T_world_segment.resize(1);
+  Trajectory trajectory;
+  trajectory.stamps = {0};
+  trajectory.T_world_frame.resize(1);
+  EXPECT_THROW(StepUnderTest(*plumb_module()).run<GridMap>("map", context), Error);
+  StepUnderTest step(*plumb_module());
+  step.each<Segment>("submaps", {submap()});
+  EXPECT_THROW(step.run<GridMap>("map", context), Error);
+  step.with("poses", poses);
+  EXPECT_GT(step.run<GridMap>("map", context).columns, 0u);
+  step.each<Frame>("frames", {Frame()}).with("trajectory", trajectory);
+  EXPECT_THROW(step.run<GridMap>("map", context), Error);
 }
 
 }  // namespace

@@ -13,6 +13,8 @@ struct OccupancyGrid : WholeStep {
   struct In {
     Each<Frame> frames;
     One<Trajectory> trajectory;
+    Each<Segment> submaps;
+    One<Poses> poses;
   };
   struct Out {
     GridMap map;
@@ -22,8 +24,11 @@ struct OccupancyGrid : WholeStep {
   static void describe(Declaration<OccupancyGrid>& is) {
     is.name("map.occupancy_grid").version(1).source("[Moravec1985], [Hornung2013]");
     is.summary("Builds an occupancy grid from 2-D scans by ray casting.");
-    is.input("frames", &In::frames, "the scans");
-    is.input("trajectory", &In::trajectory, "the sensor's pose for each scan");
+    is.optional_input("frames", &In::frames, "the scans");
+    is.optional_input("trajectory", &In::trajectory, "the sensor's pose for each scan");
+    is.optional_input("submaps", &In::submaps,
+                      "submaps instead of scans, each as one scan seen from its own origin");
+    is.optional_input("poses", &In::poses, "the poses of the submaps");
     is.output("map", &Out::map, "log odds of each cell; 0: unknown");
     is.param("resolution", &Params::resolution)
         .unit("m")
@@ -48,15 +53,12 @@ struct OccupancyGrid : WholeStep {
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    const std::size_t frames = in.frames.size();
-    if (frames != in.trajectory->size())
-      throw Error("got " + counted(frames, "frames") + " but " +
-                  counted(in.trajectory->size(), "poses") +
-                  " in the trajectory; wire the trajectory of these frames");
-    std::vector<PlacedScan> scans(frames);
-    context.parallel(frames, [&](std::size_t k) {
-      scans[k] = placed(in.frames.open(k)->cloud, in.trajectory->T_world_frame[k]);
-    });
+    const bool of_frames = in.frames && in.trajectory && !in.submaps && !in.poses;
+    const bool of_submaps = in.submaps && in.poses && !in.frames && !in.trajectory;
+    if (!of_frames && !of_submaps)
+      throw Error("wire 'frames' and 'trajectory', or 'submaps' and 'poses'");
+    const auto scans = of_frames ? drawn(in.frames, in.trajectory->T_world_frame, "frames", context)
+                                 : drawn(in.submaps, in.poses->T_world_segment, "submaps", context);
     Out out{occupancy(scans, params, parallel::on(context))};
     const auto seen = [&](auto test) {
       return static_cast<std::uint64_t>(std::ranges::count_if(out.map.log_odds, test));
@@ -64,6 +66,20 @@ struct OccupancyGrid : WholeStep {
     context.count("cells occupied", seen([](float v) { return v > 0; }));
     context.count("cells free", seen([](float v) { return v < 0; }));
     return out;
+  }
+
+ private:
+  /// The clouds of frames or segments where their poses have them.
+  template <class T>
+  static std::vector<PlacedScan> drawn(const Each<T>& items, const std::vector<Pose>& poses,
+                                       const char* what, Context& context) {
+    if (items.size() != poses.size())
+      throw Error("got " + counted(items.size(), what) + " but " + counted(poses.size(), "poses") +
+                  "; wire poses of these " + what);
+    std::vector<PlacedScan> scans(items.size());
+    context.parallel(scans.size(),
+                     [&](std::size_t k) { scans[k] = placed(items.open(k)->cloud, poses[k]); });
+    return scans;
   }
 };
 
