@@ -13,6 +13,12 @@ struct InCell {
   auto operator<=>(const InCell&) const = default;
 };
 
+/// Whether the point has a place and a normal.
+bool counts(const Cloud& cloud, std::size_t k) {
+  const Eigen::Vector3f normal = cloud.normal(k);
+  return cloud.point(k).allFinite() && normal.allFinite() && !normal.isZero();
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
@@ -21,8 +27,7 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
   std::vector<InCell> points;
   points.reserve(cloud.size());
   for (std::size_t k = 0; k < cloud.size(); ++k) {
-    const Eigen::Vector3f normal = cloud.normal(k);
-    if (!cloud.point(k).allFinite() || !normal.allFinite() || normal.isZero()) continue;
+    if (!counts(cloud, k)) continue;
     const Eigen::Vector3d at = cloud.point(k).cast<double>() / voxel_size;
     const auto cell = [&](int c) { return static_cast<std::int64_t>(std::floor(at[c])); };
     points.push_back({{cell(0), cell(1), cell(2)}, static_cast<std::uint32_t>(k)});
@@ -42,6 +47,14 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
     result.push_back(points[best].index);
   }
   std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::uint32_t> all_points(const Cloud& cloud) {
+  std::vector<std::uint32_t> result;
+  if (!cloud.has_normals()) return result;
+  for (std::size_t k = 0; k < cloud.size(); ++k)
+    if (counts(cloud, k)) result.push_back(static_cast<std::uint32_t>(k));
   return result;
 }
 

@@ -13,4 +13,7 @@ namespace plumb::describe_fpfh {
 /// Of two that are equally near the one with the lower index is taken.
 std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size);
 
+/// Every point that may be one, in ascending order of index.
+std::vector<std::uint32_t> all_points(const Cloud& cloud);
+
 }  // namespace plumb::describe_fpfh

@@ -1,6 +1,8 @@
 
 #include "plumb/slam/step.hpp"
 
+#include <optional>
+
 #include "fpfh.hpp"
 #include "key_points.hpp"
 #include "plumb/data/error.hpp"
@@ -18,7 +20,7 @@ struct DescribeFpfh : SegmentStep {
     Features features;
   };
   struct Params {
-    double keypoint_voxel_size = 0.8;
+    std::optional<double> keypoint_voxel_size = 0.8;
     double radius = 2.5;
     std::optional<std::uint32_t> max_neighbours;
     std::uint32_t min_neighbours = 10;
@@ -36,7 +38,9 @@ struct DescribeFpfh : SegmentStep {
     is.param("keypoint_voxel_size", &Params::keypoint_voxel_size)
         .unit("m")
         .range(0.01, 100)
-        .doc("edge length of the voxels; each has one keypoint");
+        .doc(
+            "edge length of the voxels; each has one keypoint; none: every point is one, as in "
+            "[Tang2024]");
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.01, 100)
@@ -61,7 +65,9 @@ struct DescribeFpfh : SegmentStep {
     if (!cloud.empty() && !cloud.has_normals())
       throw Error("describe.fpfh: the segment has no normals; put estimate.normals before it");
     Fpfh result =
-        fpfh(cloud, key_points(cloud, params.keypoint_voxel_size),
+        fpfh(cloud,
+             params.keypoint_voxel_size ? key_points(cloud, *params.keypoint_voxel_size)
+                                        : all_points(cloud),
              {params.radius, params.max_neighbours, params.min_neighbours, params.border_angle},
              context);
     if (result.left_out > 0)

@@ -1,5 +1,7 @@
 #include "by_count.hpp"
 
+#include <algorithm>
+
 namespace plumb::segment_by_count {
 
 std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_segment) {
@@ -7,6 +9,10 @@ std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_seg
   for (std::size_t first = 0; first < frames; first += per_segment) starts.push_back(first);
   if (starts.size() > 1 && 2 * (frames - starts.back()) < per_segment) starts.pop_back();
   return starts;
+}
+
+std::size_t frames_for(std::size_t frames, std::size_t segments) {
+  return std::max<std::size_t>(1, (frames + segments - 1) / segments);
 }
 
 }  // namespace plumb::segment_by_count

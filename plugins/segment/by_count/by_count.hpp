@@ -11,4 +11,9 @@ namespace plumb::segment_by_count {
 /// short last segment is ours.
 std::vector<std::size_t> starts_by_count(std::size_t frames, std::size_t per_segment);
 
+/// How many of `frames` frames a segment has if they are cut into about `segments` (at least 1):
+/// their share, rounded up, at least 1. Source: [Tang2024] 2.2 has the number of frames follow from
+/// that of all frames and does not say how: the share is ours.
+std::size_t frames_for(std::size_t frames, std::size_t segments);
+
 }  // namespace plumb::segment_by_count

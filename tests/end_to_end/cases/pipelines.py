@@ -14,7 +14,9 @@ FILES = ["graph.g2o", "map.ply", "metrics.json", "run.lock.yaml", "trajectory.tu
 
 def test_all_are_known_to_these_cases(folder):
     """A new pipeline needs a case here."""
-    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN, PLANAR, UNIMPROVED, PIPELINES / "judge2d.yaml", PIPELINES / "plumb.yaml"])  # the last four: planar.py, compare.py, recommended.py
+    elsewhere = [PLANAR, UNIMPROVED, PIPELINES / "judge2d.yaml", PIPELINES / "plumb.yaml"]  # planar.py, compare.py, recommended.py
+    elsewhere += [PIPELINES / f"presets/{name}.yaml" for name in ("tang2024_literal", "zhang2023_literal", "zhang2023_literal_unimproved")]  # literal.py
+    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN, *elsewhere])
 
 
 def test_all_check_clean(folder):
