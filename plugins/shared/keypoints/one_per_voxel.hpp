@@ -1,21 +1,25 @@
-#include "key_points.hpp"
+#pragma once
+/// Keypoints from a grid: of each voxel the point in its middle.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
-namespace plumb::describe_fpfh {
-namespace {
+#include "plumb/slam/cloud.hpp"
 
-struct InCell {
-  std::array<std::int64_t, 3> cell;
-  std::uint32_t index;
-  auto operator<=>(const InCell&) const = default;
-};
+namespace plumb::keypoints {
 
-}  // namespace
-
-std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
+/// Of each cubic cell of edge `voxel_size` [m] the point nearest to the mean of the cell's points,
+/// in ascending order of index. Points without a finite position or without a normal do not count.
+/// Of two that are equally near the one with the lower index is taken.
+inline std::vector<std::uint32_t> one_per_voxel(const Cloud& cloud, double voxel_size) {
+  struct InCell {
+    std::array<std::int64_t, 3> cell;
+    std::uint32_t index;
+    auto operator<=>(const InCell&) const = default;
+  };
   std::vector<std::uint32_t> result;
   if (!cloud.has_normals()) return result;
   std::vector<InCell> points;
@@ -45,4 +49,4 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
   return result;
 }
 
-}  // namespace plumb::describe_fpfh
+}  // namespace plumb::keypoints
