@@ -4,11 +4,11 @@
 #include <map>
 
 #include "../../plugins/describe/fpfh/fpfh.hpp"
-#include "../../plugins/describe/fpfh/key_points.hpp"
 #include "../../plugins/match/fpfh_mutual/mutual.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/step.hpp"
 #include "scene.hpp"
+#include "shared/keypoints/one_per_voxel.hpp"
 #ifdef PLUMB_HAS_FLANN
 #include <flann/flann.hpp>
 #endif
@@ -26,7 +26,7 @@ struct Ends {
   static std::vector<float> described(std::size_t which, double leaf) {
     const Cloud& cloud = segment_with_normals(which);
     TestContext context;
-    return describe_fpfh::fpfh(cloud, describe_fpfh::key_points(cloud, leaf), {}, context)
+    return describe_fpfh::fpfh(cloud, keypoints::one_per_voxel(cloud, leaf), {}, context)
         .features.vectors;
   }
   static const Ends& of(const benchmark::State& state) {

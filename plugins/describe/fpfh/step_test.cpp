@@ -63,6 +63,20 @@ TEST(DescribeFpfhStep, DescribesEveryPointWhenToldTo) {
   EXPECT_GT(few.size(), 200u);
 }
 
+TEST(DescribeFpfhStep, DescribesTheKeypointsThatAreWired) {
+  TestContext context;
+  const Cloud cloud = street_corner(4000, 2);
+  StepUnderTest step(*plumb_module());
+  step.with("segment", segment_of(cloud)).set("radius", 1.5).set("keypoint_voxel_size", 0.3);
+  const auto all = step.run<Features>("features", context);
+  const std::vector<std::uint32_t> chosen{5, 100, 2000, 3999};
+  const auto few =
+      step.with("keypoints", segment_of(select(cloud, chosen))).run<Features>("features", context);
+  EXPECT_GT(all.size(), 1000u);
+  ASSERT_EQ(few.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(few.points[k], cloud.point(chosen[k]));
+}
+
 TEST(DescribeFpfhStep, RefusesASegmentWithoutNormalsAndNamesTheCure) {
   Cloud cloud;
   for (int k = 0; k < 10; ++k) cloud.add({static_cast<float>(k), 0, 0});

@@ -9,11 +9,16 @@ from plumb_test import BUILD, WRONG_INPUT, plumb, skip, step_names
 # What a module may link: of the system and of libplumb, under a BSD licence, and what asks for a licence of its own to be stated.
 SYSTEM = {"libc", "libm", "libmvec", "libdl", "librt", "libpthread", "libstdc++", "libgcc_s", "libatomic", "ld-linux-x86-64", "libplumb", "libplumb_slam", "libtbb"}
 BSD = {"libceres", "libglog", "libgflags", "liblapack", "libblas", "libf77blas", "libatlas", "libamd", "libcamd", "libcolamd", "libccolamd",
-       "libsuitesparseconfig"}
-STATED = {"libbz2": {"bzip2-1.0.6"}, "libz": {"Zlib"}, "libpng16": {"libpng-2.0"}, "libmetis": {"Apache-2.0"},
+       "libsuitesparseconfig", "libpcl_common", "libpcl_kdtree", "libpcl_octree", "libpcl_search", "libpcl_sample_consensus", "libpcl_filters", "libpcl_features",
+       "libpcl_registration", "libpcl_recognition"}
+STATED = {"libbz2": {"bzip2-1.0.6"}, "liblz4": {"BSD-2-Clause"}, "libz": {"Zlib"}, "libpng16": {"libpng-2.0"}, "libmetis": {"Apache-2.0"},
           "libcholmod": {"GPL-2.0-or-later", "LGPL-2.1-or-later"}, "libspqr": {"GPL-2.0-or-later"}, "libumfpack": {"GPL-2.0-or-later"},
           "libcxsparse": {"LGPL-2.1-or-later"}, "libklu": {"LGPL-2.1-or-later"}, "libbtf": {"LGPL-2.1-or-later"}, "libfftw3": {"GPL-2.0-or-later"},
-          "libgsl": {"GPL-3.0-or-later"}, "libreadline": {"GPL-3.0-or-later"}, "libgmp": {"LGPL-3.0-or-later"}, "libmpfr": {"LGPL-3.0-or-later"}}
+          "libgsl": {"GPL-3.0-or-later"}, "libreadline": {"GPL-3.0-or-later"}, "libgmp": {"LGPL-3.0-or-later"}, "libmpfr": {"LGPL-3.0-or-later"},
+          "libjbig": {"GPL-2.0-or-later"}, "libusb-1.0": {"LGPL-2.1-or-later"}, "libsystemd": {"LGPL-2.1-or-later"}, "libudev": {"LGPL-2.1-or-later"},
+          "libgcrypt": {"LGPL-2.1-or-later"}, "libgpg-error": {"LGPL-2.1-or-later"}, "libOpenNI": {"Apache-2.0"}, "libOpenNI2": {"Apache-2.0"},
+          "libLerc": {"Apache-2.0"}, "libboost_filesystem": {"BSL-1.0"}, "libboost_iostreams": {"BSL-1.0"}, "libdeflate": {"MIT"}, "libjsoncpp": {"MIT"},
+          "libtinyxml": {"Zlib"}, "libtiff": {"LicenseRef-libtiff"}, "libjpeg": {"LicenseRef-IJG"}}
 
 
 def manifests():

@@ -1,27 +1,40 @@
-#include "key_points.hpp"
+#pragma once
+/// Keypoints without a detector: of each voxel the point in its middle, or all points.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
-namespace plumb::describe_fpfh {
-namespace {
+#include "plumb/slam/cloud.hpp"
 
-struct InCell {
-  std::array<std::int64_t, 3> cell;
-  std::uint32_t index;
-  auto operator<=>(const InCell&) const = default;
-};
+namespace plumb::keypoints {
 
-/// Whether the point has a place and a normal.
-bool counts(const Cloud& cloud, std::size_t k) {
+/// Whether a point may be one: it has a finite position and a normal.
+inline bool counts(const Cloud& cloud, std::size_t k) {
   const Eigen::Vector3f normal = cloud.normal(k);
   return cloud.point(k).allFinite() && normal.allFinite() && !normal.isZero();
 }
 
-}  // namespace
+/// Every point that may be one, in ascending order of index.
+inline std::vector<std::uint32_t> all_points(const Cloud& cloud) {
+  std::vector<std::uint32_t> result;
+  if (!cloud.has_normals()) return result;
+  for (std::size_t k = 0; k < cloud.size(); ++k)
+    if (counts(cloud, k)) result.push_back(static_cast<std::uint32_t>(k));
+  return result;
+}
 
-std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
+/// Of each cubic cell of edge `voxel_size` [m] the point nearest to the mean of the cell's points,
+/// in ascending order of index. Points without a finite position or without a normal do not count.
+/// Of two that are equally near the one with the lower index is taken.
+inline std::vector<std::uint32_t> one_per_voxel(const Cloud& cloud, double voxel_size) {
+  struct InCell {
+    std::array<std::int64_t, 3> cell;
+    std::uint32_t index;
+    auto operator<=>(const InCell&) const = default;
+  };
   std::vector<std::uint32_t> result;
   if (!cloud.has_normals()) return result;
   std::vector<InCell> points;
@@ -50,12 +63,4 @@ std::vector<std::uint32_t> key_points(const Cloud& cloud, double voxel_size) {
   return result;
 }
 
-std::vector<std::uint32_t> all_points(const Cloud& cloud) {
-  std::vector<std::uint32_t> result;
-  if (!cloud.has_normals()) return result;
-  for (std::size_t k = 0; k < cloud.size(); ++k)
-    if (counts(cloud, k)) result.push_back(static_cast<std::uint32_t>(k));
-  return result;
-}
-
-}  // namespace plumb::describe_fpfh
+}  // namespace plumb::keypoints
