@@ -27,7 +27,7 @@ Points points_in(const Cloud& cloud, const Pose& T_world_segment,
     if (overlapping::Cells::within(cell, lattice.bits)) points.push_back(cgal::point_of(cell));
   }
   const auto edge = static_cast<double>(1 << lattice.bits);
-  points.emplace_back(0, 0, 0);
+  points.emplace_back(0.0, 0.0, 0.0);
   points.emplace_back(edge, edge, edge);
   return points;
 }
