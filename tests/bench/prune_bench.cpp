@@ -1,8 +1,10 @@
-/// Keeping the pairs that agree: K-means beside RANSAC, per pair of an edge with 400 pairs. The
-/// argument is the share of right pairs in percent. "right" is the share in what is kept.
+/// Keeping the pairs that agree: K-means beside RANSAC and beside compatible pairs, per pair of an
+/// edge with 400 pairs. The argument is the share of right pairs in percent. "right" is the share
+/// in what is kept.
 
 #include <algorithm>
 
+#include "../../plugins/prune/consistency/consistency.hpp"
 #include "../../plugins/prune/kmeans/kmeans.hpp"
 #include "../../plugins/prune/kmeans/motion_vectors.hpp"
 #include "../../plugins/prune/ransac/ransac.hpp"
@@ -69,6 +71,20 @@ void by_ransac(benchmark::State& state) {
 }
 BENCHMARK(by_ransac)
     ->Name("prune/RANSAC")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
+
+void by_consistency(benchmark::State& state) {
+  const Matches matches = planted(state);
+  std::vector<std::uint32_t> kept;
+  for (auto _ : state) kept = prune_consistency::consistent_pairs(matches, {}).inliers;
+  say(state, kept);
+}
+BENCHMARK(by_consistency)
+    ->Name("prune/consistency")
     ->ArgName("right [%]")
     ->Arg(40)
     ->Arg(15)

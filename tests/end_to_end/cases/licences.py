@@ -1,4 +1,5 @@
 """What whoever loads a module accepts is stated in its manifest, shown, and no less than what the module loads."""
+import functools
 import json
 import re
 import shutil
@@ -18,7 +19,9 @@ STATED = {"libbz2": {"bzip2-1.0.6"}, "liblz4": {"BSD-2-Clause"}, "libz": {"Zlib"
           "libjbig": {"GPL-2.0-or-later"}, "libusb-1.0": {"LGPL-2.1-or-later"}, "libsystemd": {"LGPL-2.1-or-later"}, "libudev": {"LGPL-2.1-or-later"},
           "libgcrypt": {"LGPL-2.1-or-later"}, "libgpg-error": {"LGPL-2.1-or-later"}, "libOpenNI": {"Apache-2.0"}, "libOpenNI2": {"Apache-2.0"},
           "libLerc": {"Apache-2.0"}, "libboost_filesystem": {"BSL-1.0"}, "libboost_iostreams": {"BSL-1.0"}, "libdeflate": {"MIT"}, "libjsoncpp": {"MIT"},
-          "libtinyxml": {"Zlib"}, "libtiff": {"LicenseRef-libtiff"}, "libjpeg": {"LicenseRef-IJG"}}
+          "libtinyxml": {"Zlib"}, "libtiff": {"LicenseRef-libtiff"}, "libjpeg": {"LicenseRef-IJG"}, "liblz4": {"BSD-2-Clause"}}
+# Libraries that are headers alone leave no trace in what is linked. CGAL's headers state their licence each.
+HEADERS = {"/flann/": {"BSD-2-Clause"}, "/CGAL/": None}
 
 
 def manifests():
@@ -42,6 +45,29 @@ def name_of(library):
 def loaded_by(file):
     """The names of all that the loader takes for it, directly or not."""
     return {name_of(line.split()[0]) for line in lines_of("ldd", file) if line.strip()}
+
+
+def brought_by_headers():
+    """{module: what the headers that the compiler read for its own code come under}."""
+    found, module = {}, None
+    for line in lines_of("ninja", "-C", BUILD, "-t", "deps"):
+        if line and not line.startswith(" "):
+            of = re.search(r"/(\w+)_objects\.dir/", line)
+            module = found.setdefault(of[1], set()) if of else None
+        elif module is not None:
+            for folder in HEADERS:
+                if folder in line:
+                    module |= HEADERS[folder] or spdx_of(line.strip())
+    return found
+
+
+@functools.cache
+def spdx_of(header):
+    """What a header says of itself; of a choice the first. None of Boost's licence, which asks nothing of who links."""
+    with open(BUILD / header, encoding="utf-8", errors="replace") as text:
+        stated = re.search(r"SPDX-License-Identifier: (\S+)", text.read(4000))
+    assert stated, f"{header} states no licence"
+    return frozenset({stated[1]} - {"BSL-1.0"})
 
 
 def table():
@@ -73,8 +99,8 @@ def test_inspect_shows_the_licences_and_the_reason(folder):
             assert json.loads(plumb("inspect", step["name"], "--json").out)["licence"] == stated
 
 
-def test_a_module_states_the_licences_of_all_that_it_links(folder):
-    of_libplumb = loaded_by(BUILD / "lib/libplumb_slam.so")
+def test_a_module_states_the_licences_of_all_that_it_links_and_of_the_headers_it_is_compiled_with(folder):
+    of_libplumb, by_headers = loaded_by(BUILD / "lib/libplumb_slam.so"), brought_by_headers()
     assert not [name for name in of_libplumb & set(STATED) if any("GPL" in licence for licence in STATED[name])], of_libplumb
     for module, manifest in manifests().items():
         file, stated = BUILD / "lib/plumb" / (module + ".so"), set(manifest["licence"]["expression"].split(" AND "))
@@ -82,7 +108,7 @@ def test_a_module_states_the_licences_of_all_that_it_links(folder):
         unknown = {name for name in linked - SYSTEM - BSD - set(STATED) if not re.fullmatch(r"lib[a-z]+san", name)}  # sanitizers' builds
         assert not unknown, f"{module} links {sorted(unknown)}: add to STATED what that asks for, and this to the module's LICENCE"
         loaded = linked | (loaded_by(file) - of_libplumb)
-        brought = set().union(*(STATED[name] for name in loaded & set(STATED)))
+        brought = set().union(*(STATED[name] for name in loaded & set(STATED)), by_headers[module.replace(".", "_")])
         assert {"BSD-3-Clause"} | brought <= stated, f"{module} loads what is {sorted(brought)} and states {sorted(stated)}"
         assert {licence for licence in stated if "GPL" in licence} <= brought, f"{module} states {sorted(stated)} and loads what is {sorted(brought)}"
         assert manifest["licence"]["reason"] or not brought, module

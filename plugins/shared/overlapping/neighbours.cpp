@@ -1,9 +1,13 @@
-#include "neighbours.hpp"
+#include "shared/overlapping/neighbours.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <string>
+#include <utility>
 
-namespace plumb::edges_overlap {
+#include "plumb/data/counted.hpp"
+#include "plumb/data/error.hpp"
+
+namespace plumb::overlapping {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -28,9 +32,9 @@ std::vector<Pair> meeting(const std::vector<Eigen::AlignedBox3d>& boxes, double 
   return pairs;
 }
 
-Neighbourhood neighbours(std::size_t count,
-                         const std::function<std::shared_ptr<const Segment>(std::size_t)>& segment,
-                         const Poses& poses, const OverlapOptions& options, Context& context) {
+Neighbourhood neighbours(std::size_t count, const Opener& segment, const Poses& poses,
+                         const OverlapOptions& options, const Comparison& comparison,
+                         Context& context) {
   std::vector<Eigen::AlignedBox3d> boxes(count);
   std::vector<Eigen::Vector3d> centroids(count);
   context.parallel(count, [&](std::size_t k) {
@@ -39,9 +43,8 @@ Neighbourhood neighbours(std::size_t count,
     centroids[k] = poses.T_world_segment[k] * at_hand->centroid.cast<double>().eval();
   });
   const Lattice lattice = lattice_over(boxes, options.resolution);
-  std::vector<Voxels> voxels(count);
   context.parallel(count, [&](std::size_t k) {
-    voxels[k] = voxels_of(segment(k)->cloud, poses.T_world_segment[k], lattice);
+    comparison.hold(k, segment(k)->cloud, poses.T_world_segment[k], lattice);
   });
   const auto edge = [&](std::uint32_t i, std::uint32_t j, EdgeKind kind, double score) {
     return Edge{i, j, kind, static_cast<float>(score),
@@ -51,8 +54,7 @@ Neighbourhood neighbours(std::size_t count,
   Neighbourhood result;
   const std::size_t steps = count > 0 ? count - 1 : 0;
   std::vector<double> consecutive(steps);
-  context.parallel(steps,
-                   [&](std::size_t k) { consecutive[k] = overlap(voxels[k], voxels[k + 1]); });
+  context.parallel(steps, [&](std::size_t k) { consecutive[k] = comparison.overlap(k, k + 1, 0); });
   double smallest = 1;
   for (std::uint32_t k = 0; k < steps; ++k) {
     result.edges.list.push_back(edge(k, k + 1, EdgeKind::sequential, consecutive[k]));
@@ -66,7 +68,7 @@ Neighbourhood neighbours(std::size_t count,
   std::erase_if(pairs, [](const Pair& p) { return p.second - p.first == 1; });
   std::vector<double> overlaps(pairs.size());
   context.parallel(pairs.size(), [&](std::size_t n) {
-    overlaps[n] = overlap(voxels[pairs[n].first], voxels[pairs[n].second], result.threshold);
+    overlaps[n] = comparison.overlap(pairs[n].first, pairs[n].second, result.threshold);
   });
   for (std::size_t n = 0; n < pairs.size(); ++n)
     if (overlaps[n] > result.threshold)
@@ -78,4 +80,21 @@ Neighbourhood neighbours(std::size_t count,
   return result;
 }
 
-}  // namespace plumb::edges_overlap
+Edges propose(std::size_t count, const Opener& segment, const Poses& poses,
+              const OverlapOptions& options, const Comparison& comparison, Context& context) {
+  if (count < 2)
+    throw Error("got " + counted(count, "segments") +
+                ", so there is nothing to register: cut shorter segments "
+                "(segment.by_count: frames, "
+                "segment.by_distance: length)");
+  require_pose_each(poses, count);
+  auto found = neighbours(count, segment, poses, options, comparison, context);
+  for (const auto k : found.disconnected)
+    context.warn("segments " + std::to_string(k) + " and " + std::to_string(k + 1) +
+                 " follow each other but do not overlap");
+  context.count("pairs whose boxes meet", found.compared);
+  context.count("neighbours", found.edges.size() - (count - 1));
+  return std::move(found.edges);
+}
+
+}  // namespace plumb::overlapping
