@@ -17,6 +17,7 @@ struct ByCount : WholeStep {
   };
   struct Params {
     std::uint32_t frames = 60;
+    double phase = 0;
   };
 
   static void describe(Declaration<ByCount>& is) {
@@ -29,11 +30,16 @@ struct ByCount : WholeStep {
         .range(1, 65535)
         .doc("frames per segment")
         .source("[Tang2024] 3.1");
+    is.param("phase", &Params::phase)
+        .unit("%")
+        .range(0, 0.5)
+        .doc("share of 'frames' that the first segment has fewer, which moves all cuts");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
     Out out;
-    out.ranges = ranges_from(*in.trajectory, starts_by_count(in.trajectory->size(), params.frames));
+    out.ranges = ranges_from(*in.trajectory,
+                             starts_by_count(in.trajectory->size(), params.frames, params.phase));
     out.poses = poses_of(out.ranges);
     return out;
   }

@@ -101,7 +101,10 @@ bool StepRun::reuse(std::size_t k) {
   const bool here = store && state_.results.in_store(key);
   auto found = find(key);
   if (!found) return false;
-  if (store && !here) say_again(*found);
+  if (store && !here) {
+    say_again(*found);
+    state_.books.from_earlier_run(plan_.path, 1);
+  }
   if (!state_.results.in_store(key)) pins_[k] = std::move(found);
   Stopwatch::item(item_name(k), state_.pass, true);
   return true;
