@@ -86,7 +86,8 @@ void set_up(CLI::App& app) {
       "3 a step refused its input or failed while running;\n"
       "4 done and all results in place, but something about them is not as it should be: standard "
       "output did not take what was to be said,\n"
-      "or the disk did not take the end of it; it is said which.");
+      "or the disk did not take the end of it; it is said which;\n"
+      "5, 6 of compare alone: a variant is worse; nothing could be measured or compared.");
   app.require_subcommand(1);
   app.fallthrough();  // what stands below serves behind the sub-command as well
   app.add_option("--plugin-path", plumb::command::plugin_path,
