@@ -6,8 +6,10 @@
 #include "console.hpp"
 #include "pipeline_options.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/data/file_name.hpp"
 #include "plumb/engine/preflight.hpp"
 #include "plumb/engine/record/input_record.hpp"
+#include "plumb/engine/record/quoted.hpp"
 #include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/slam/experiment/cell_plan.hpp"
 #include "plumb/slam/io/trajectory_text.hpp"
@@ -117,6 +119,10 @@ std::vector<fs::path> ComparedRuns::places(const fs::path& output) const {
 }
 
 void ComparedRuns::keep_in(const fs::path& output) {
+  for (const auto& input : experiment_.inputs)
+    if (const std::string fault = fault_of_file_name(input.name); !fault.empty())
+      throw Error(input.where + ": " + plumb::in_quotes(input.name) +
+                  ", of which compare makes a folder in -o, " + fault);
   const auto all = places(output);
   for (std::size_t k = 0; k < all.size(); ++k)
     runs_[k].folder = std::make_unique<OutputFolder>(all[k]);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t largest_file = 1 << 20;  // [byte]
 constexpr double most_replicates = 1000;
+constexpr std::size_t most_axes = 20, most_row_values = 100;
 
 const std::vector<std::string> edit_keys = {"remove", "replace", "add", "set"};
 
@@ -119,6 +120,8 @@ class Reader : Values {
     if (!sweep->is_map())
       return fault(sweep->origin, "'sweep' is a map of parameters, found " + sweep->shown() + ".",
                    "As in sweep: {voxel_size: [0.2 m, 0.3 m]}.");
+    if (sweep->entries.size() > most_axes)
+      return fault(sweep->origin, "a sweep of more than 20 parameters is nobody's to read.");
     for (const Entry& entry : sweep->entries) {
       if (entry.value.is_list() && !entry.value.items.empty())
         to.axes.push_back({entry.key, entry.origin, entry.value.items, text_});
@@ -126,10 +129,18 @@ class Reader : Values {
         fault(entry.value.origin, "a sweep of '" + entry.key + "' takes a list of values, found " +
                                       entry.value.shown() + ".");
       for (const Node& value : entry.value.items)
-        if (value.kind == Node::Kind::none || value.is_map())
-          fault(value.origin,
-                "a value of '" + entry.key + "' is expected, found " + value.shown() + ".");
+        if (!is_value(value))
+          fault(value.origin, "a value of '" + entry.key +
+                                  "' is expected, or a list of up to 100 for a row, found " +
+                                  value.shown() + ".");
     }
+  }
+
+  /// What a parameter or a row can be set to.
+  static bool is_value(const Node& node) {
+    if (node.is_scalar()) return true;
+    return node.is_list() && !node.items.empty() && node.items.size() <= most_row_values &&
+           std::ranges::all_of(node.items, [](const Node& item) { return item.is_scalar(); });
   }
 
   std::vector<Input> inputs_of(const Node& node) {

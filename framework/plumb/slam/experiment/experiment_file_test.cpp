@@ -166,6 +166,15 @@ TEST_F(ExperimentFile, RefusesTwoInputsOfOneName) {
               HasSubstr("there is an input 'x' already.\n"));
 }
 
+TEST_F(ExperimentFile, SweepsOverWhatCanBeSetAlone) {
+  const auto of = [&](const std::string& values) {
+    return told(std::string(least) + "sweep: {gate: [" + values + "]}\n");
+  };
+  EXPECT_EQ(of("1 m, [1 m, 2 m]"), "");
+  for (const char* odd : {"{a: 1}", "[]", "[[1 m]]", "~"})
+    EXPECT_THAT(of(odd), HasSubstr("e.yaml:4:16: a value of 'gate' is expected")) << odd;
+}
+
 TEST_F(ExperimentFile, ThatIsNoYamlIsToldSo) {
   EXPECT_THAT(told("experiment: 1\nvariants: {a: [\n"), HasSubstr("this is not YAML"));
 }

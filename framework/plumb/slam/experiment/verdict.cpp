@@ -154,16 +154,15 @@ double half_width(const Interval& interval, double estimate) {
 
 /// Adjusts what was tested for the number of variants, and says what could have been shown.
 void adjust(Judged& judged, const Rules& rules) {
-  std::vector<double> p;
-  for (const Contrast& c : judged.contrasts)
-    if (c.p) p.push_back(*c.p);
+  std::vector<double> p;  // 1 of what was not tested: it is a comparison all the same
+  for (const Contrast& c : judged.contrasts) p.push_back(c.p.value_or(1));
   const std::vector<double> adjusted = judged.primary ? holm(p) : p;
   const auto comparisons = judged.primary ? static_cast<double>(judged.contrasts.size()) : 1.0;
-  std::size_t next = 0;
-  for (Contrast& c : judged.contrasts) {
+  for (std::size_t k = 0; k < judged.contrasts.size(); ++k) {
+    Contrast& c = judged.contrasts[k];
     c.least_p = std::min(1.0, c.least_p * comparisons);
     if (c.p) {
-      c.adjusted_p = adjusted[next++];
+      c.adjusted_p = adjusted[k];
       if (const auto wide = SignFlip(c.by_input).interval(rules.alpha / comparisons))
         c.least_shown = half_width(*wide, c.estimate);
     } else if (c.interval && c.method != Method::identical) {
