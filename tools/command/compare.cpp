@@ -42,6 +42,7 @@ struct Options {
 std::string text_of(const Outcome& outcome, const std::string& format) {
   if (format == "json") return outcome_json(outcome) + "\n";
   if (format == "csv") return outcome_csv(outcome);
+  if (format == "svg") return outcome_svg(outcome);
   return format == "markdown" ? outcome_markdown(outcome) : outcome_table(outcome);
 }
 
@@ -50,10 +51,12 @@ std::string format_of(const fs::path& file) {
   for (const auto& [known, format] : {std::pair<const char*, const char*>{".json", "json"},
                                       {".csv", "csv"},
                                       {".md", "markdown"},
+                                      {".svg", "svg"},
                                       {".txt", "table"}})
     if (ending == known) return format;
-  throw UsageError("--save " + file.string() +
-                   ": its ending says how it is written, and must be .json, .csv, .md or .txt");
+  throw UsageError(
+      "--save " + file.string() +
+      ": its ending says how it is written, and must be .json, .csv, .md, .svg or .txt");
 }
 
 /// What of the experiment's the baseline decides, where nobody says otherwise.
@@ -213,8 +216,10 @@ void add_reports(CLI::App& command, Options& options) {
       ->capture_default_str();
   command.add_flag("--json", options.json, "As --format json");
   command
-      .add_option("--save", options.save,
-                  "Also writes the result to a file .json, .csv, .md or .txt; may be given again")
+      .add_option(
+          "--save", options.save,
+          "Also writes the result to a file .json, .csv, .md, .svg (a plot) or .txt; may be "
+          "given again")
       ->allow_extra_args(false);
   command.add_option("--events", options.events,
                      "Also write all that happens to this file: a JSON object a line");

@@ -78,8 +78,8 @@ std::vector<std::string> of_steps(std::vector<std::string> metrics, const Cell& 
 /// Whether sharpness stands in for what a truth would say, or was asked for.
 bool wants_sharpness(const Experiment& experiment, const std::vector<RunBeside>& runs) {
   const auto& metrics = experiment.metrics;
-  if (experiment.primary == "sharpness" || std::ranges::find(metrics, "sharpness") != metrics.end())
-    return true;
+  const std::string name = "sharpness";
+  if (experiment.primary == name || std::ranges::find(metrics, name) != metrics.end()) return true;
   return metrics.empty() && std::ranges::none_of(runs, [](const RunBeside& run) {
            return run.written && !run.written->truth.empty();
          });
@@ -150,7 +150,11 @@ void ComparedRuns::make_beside(std::size_t k, std::size_t r, const RunsOptions& 
     make_one(runs_[index(v, k, r)], beside[v], title(v, k, r), options);
     runs_[index(v, k, r)].folder.reset();
   }
-  stamps_left_out_ = std::max(stamps_left_out_, judge_at_same_stamps(beside));
+  try {
+    stamps_left_out_ = std::max(stamps_left_out_, judge_at_same_stamps(beside));
+  } catch (const Error& e) {
+    std::cerr << "errors are not known by segment: " << e.what() << "\n";
+  }
   if (wants_sharpness(experiment_, beside)) add_sharpness(beside);
 }
 

@@ -4,6 +4,7 @@ import io
 import itertools
 import json
 import math
+from xml.etree import ElementTree
 
 from plumb_test import DONE, NOTHING, STEP_FAILED, UNSETTLED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, plumb, refused
 
@@ -267,6 +268,10 @@ def test_a_sweep_is_a_table(folder):
     said = plumb(*command, "--sweep-by", "one_at_a_time", "--format", "markdown", code=(DONE, WORSE))
     assert said.out.count("| voxel\\_size=0.2m |") >= 2 and "voxel\\_size=0.2m,match" not in said.out, said
     refused(plumb(*command, "--sweep-by", "paired", code=WRONG_INPUT), "'voxel_size' has 3 values")
+    plumb(*command, "--save", folder / "sweep.svg", code=(DONE, WORSE))
+    plot = ElementTree.parse(folder / "sweep.svg")
+    names = {text.text for text in plot.iter("{http://www.w3.org/2000/svg}text")}
+    assert same in names and len(list(plot.iter("{http://www.w3.org/2000/svg}circle"))) == 6, names
 
 
 def test_what_is_common_is_made_once_and_a_second_run_makes_nothing(folder):

@@ -49,6 +49,8 @@ std::string mean_text(const Outcome& outcome, std::size_t variant, const Judged&
 std::string outcome_table(const Outcome& outcome);
 /// The same for a page.
 std::string outcome_markdown(const Outcome& outcome);
+/// A plot of the number that decides: a row a variant, its mean, interval and inputs.
+std::string outcome_svg(const Outcome& outcome);
 /// A line for each number of each run: variant, input, replicate, metric, value, unit, cached,
 /// failed, and what a sweep set.
 std::string outcome_csv(const Outcome& outcome);

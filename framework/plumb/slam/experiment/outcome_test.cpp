@@ -74,6 +74,20 @@ TEST(Outcome, AsAPageHasTablesThatNothingBreaks) {
       page, HasSubstr("| b\\|c | 20 % lower than a | 2 / 0 / 0 |  | no result on 1 of 2 inputs |"));
 }
 
+TEST(Outcome, AsAPlotHasARowAVariant) {
+  Outcome odd = outcome();
+  odd.measured.variants[1] = "b<c>&\"d\"";
+  odd.numbers = judge(odd.measured, odd.rules);
+  const std::string plot = outcome_svg(odd);
+  EXPECT_THAT(plot, testing::StartsWith("<svg xmlns='http://www.w3.org/2000/svg'"));
+  EXPECT_THAT(plot, testing::EndsWith("</svg>\n"));
+  EXPECT_THAT(plot, AllOf(HasSubstr(">b&lt;c>&amp;&quot;d&quot;</text>"),
+                          HasSubstr(">x 0.8</text>"), HasSubstr(">x 1</text>")));
+  EXPECT_THAT(plot, HasSubstr("<title>fails</title></circle>"));
+  odd.numbers.clear();
+  EXPECT_THAT(outcome_svg(odd), HasSubstr("nothing was compared"));
+}
+
 TEST(Outcome, AsCsvHasALineForEachNumberOfEachRun) {
   const std::string csv = outcome_csv(outcome());
   EXPECT_THAT(csv, testing::StartsWith(
