@@ -76,7 +76,7 @@ def test_a_variant_that_is_worse_everywhere_is_worse(folder):
     found = against(made, "blind")
     assert found["verdict"] == "worse" and not found["on_these_data"] and found["method"] == "sign-flip over inputs", found
     assert found["p"] == found["smallest_p"] == 2 / 64 and found["ratio"] > 2
-    assert not number_of(made)["exploratory"] and number_of(made, "match_rmse.fine")["exploratory"]
+    assert not number_of(made)["exploratory"] and number_of(made, "error.fine.ate_max")["exploratory"]
 
 
 def subsets_refuted(differences, alpha=0.05):
@@ -182,7 +182,7 @@ def failing(folder, more=""):
     """Six inputs of which the last is so short that one variant leaves no frame of it."""
     inputs = rooms(folder, 5)
     plumb("simulate", "rooms", "--seed", 9, "--length", "6m", "-o", folder / "short")
-    scans = sum(line.startswith("FLASER") for line in (folder / "short/log.clf").read_text().splitlines())
+    scans = sum(line.startswith("ROBOTLASER1") for line in (folder / "short/log.clf").read_text().splitlines())
     assert scans >= 3, scans
     return experiment(folder, [*inputs, folder / "short"], f"variants:\n  late: {{set: {{log.skip_frames: {scans - 1}}}}}\n" + more)
 

@@ -61,7 +61,7 @@ std::vector<std::size_t> parts_of(const std::vector<Pose>& truth) {
   return parts;
 }
 
-/// Sets the sums of a number where they give it; with `anew` also its value.
+/// Sets the sums of a number where they give it; with `anew` also its value, or there is none.
 void set_sums(experiment::Cell& cell, const std::string& name, bool root,
               const std::vector<std::size_t>& parts, const std::vector<double>& values, bool anew) {
   Figure* figure = find(cell, name);
@@ -72,7 +72,11 @@ void set_sums(experiment::Cell& cell, const std::string& name, bool root,
     ++sums.count[parts[k]];
   }
   const double value = sums.value();
-  if (anew && std::isfinite(value)) figure->number.value = value;
+  if (anew && !std::isfinite(value)) {
+    std::erase_if(cell.figures, [&](const Figure& one) { return one.number.name == name; });
+    return;
+  }
+  if (anew) figure->number.value = value;
   constexpr double rounding = 1e-5;  // of files, and of the order in which is summed
   if (std::abs(value - figure->number.value) <= rounding * (std::abs(value) + rounding))
     figure->segments = std::move(sums);

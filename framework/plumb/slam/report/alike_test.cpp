@@ -98,6 +98,17 @@ TEST_F(Beside, ErrorsAreOfTheStampsThatAllVariantsHave) {
   EXPECT_TRUE(of_whole.find("map_error.mean"));
 }
 
+TEST_F(Beside, AnErrorThatTheCommonStampsDoNotGiveIsNone) {
+  const Trajectory whole = trip(0.3), part = without(trip(0.3), 4, 40);  // 6 m, and no 10 m
+  Cell of_whole = cell_of(whole, trip(0)), of_part = cell_of(part, trip(0));
+  std::erase_if(of_part.figures, [](const auto& f) { return std::isnan(f.number.value); });
+  std::vector<RunBeside> runs{{&of_whole, written(whole)}, {&of_part, written(part)}};
+  EXPECT_EQ(judge_at_same_stamps(runs), 36u);
+  EXPECT_TRUE(of_whole.find("error.fine.ate"));
+  EXPECT_FALSE(of_whole.find("error.fine.rpe_translation"));
+  EXPECT_FALSE(of_part.find("error.fine.rpe_translation"));
+}
+
 TEST_F(Beside, ARunThatFailedOrWroteNoTrajectoryIsLeftAlone) {
   Cell failed, other = cell_of(trip(0.1), trip(0));
   std::vector<RunBeside> runs{{&failed, std::nullopt}, {&other, std::nullopt}};
