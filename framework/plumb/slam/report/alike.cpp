@@ -82,18 +82,25 @@ void set_sums(experiment::Cell& cell, const std::string& name, bool root,
     figure->segments = std::move(sums);
 }
 
+/// Takes away the numbers of a trajectory that stand for other stamps than the common ones and are
+/// not taken anew.
+void erase_others(experiment::Cell& cell, const std::string& prefix, bool all) {
+  std::erase_if(cell.figures, [&](const Figure& figure) {
+    const std::string& name = figure.number.name;
+    const bool is_taken_anew = name == prefix + "ate" || name == prefix + "rpe_translation" ||
+                               name == prefix + "rpe_rotation";
+    return name.starts_with(prefix) && (all || !is_taken_anew);
+  });
+}
+
+/// `anew`: some of the runs have other stamps.
 void judge_run(experiment::Cell& cell, const WrittenTrajectory& written, const Trajectory& truth,
-               const std::vector<std::int64_t>& stamps) {
-  const Trajectory estimate = at_stamps(written.trajectory, stamps);
-  const bool anew = estimate.size() < written.trajectory.size();
-  const PosePairs pairs = pair_by_stamp(estimate, truth, written.tolerance);
-  if (pairs.size() < 3) return;
-  if (anew)  // what is not taken anew below stands for other stamps
-    std::erase_if(cell.figures, [&](const Figure& figure) {
-      const std::string& name = figure.number.name;
-      return name.starts_with(written.prefix) && name != written.prefix + "ate" &&
-             name != written.prefix + "rpe_translation" && name != written.prefix + "rpe_rotation";
-    });
+               const std::vector<std::int64_t>& stamps, bool anew) {
+  const PosePairs pairs =
+      pair_by_stamp(at_stamps(written.trajectory, stamps), truth, written.tolerance);
+  const bool too_few = pairs.size() < 3;
+  if (anew) erase_others(cell, written.prefix, too_few);
+  if (too_few) return;
   const auto parts = parts_of(pairs.truth);
   set_sums(cell, written.prefix + "ate", true, parts, squared_errors(pairs), anew);
   std::vector<double> translations, rotations;
@@ -156,13 +163,12 @@ std::size_t judge_at_same_stamps(std::vector<RunBeside>& runs) {
       trajectories.push_back(&run.written->trajectory);
   const auto stamps = common_stamps(trajectories);
   std::size_t left_out = 0;
-  for (RunBeside& run : runs) {
-    if (!run.written || run.written->truth.empty()) continue;
-    const Trajectory truth = read_tum(run.written->truth, StampOrder::any);
-    judge_run(*run.cell, *run.written, truth, stamps);
-    const Trajectory kept = at_stamps(run.written->trajectory, stamps);
-    left_out = std::max(left_out, run.written->trajectory.size() - kept.size());
-  }
+  for (const Trajectory* one : trajectories)
+    left_out = std::max(left_out, one->size() - at_stamps(*one, stamps).size());
+  for (RunBeside& run : runs)
+    if (run.written && !run.written->truth.empty())
+      judge_run(*run.cell, *run.written, read_tum(run.written->truth, StampOrder::any), stamps,
+                left_out > 0);
   return left_out;
 }
 
