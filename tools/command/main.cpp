@@ -87,7 +87,8 @@ void set_up(plumb::command::Program& program) {
       "3 a step refused its input or failed while running;\n"
       "4 done and all results in place, but something about them is not as it should be: standard "
       "output did not take what was to be said,\n"
-      "or the disk did not take the end of it; it is said which.");
+      "or the disk did not take the end of it; it is said which;\n"
+      "5, 6 of compare alone: a variant is worse; nothing could be measured or compared.");
   command.require_subcommand(1, 1);
   command.fallthrough();  // what stands below serves behind the sub-command as well
   command

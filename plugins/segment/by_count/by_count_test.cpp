@@ -27,6 +27,13 @@ TEST(SegmentByCount, JoinsALastSegmentUnderHalfToTheOneBefore) {
   EXPECT_THAT(starts_by_count(10, 4), ElementsAre(0, 4, 8));   // exactly half stays
 }
 
+TEST(SegmentByCount, MovesAllCutsByItsPhase) {
+  EXPECT_THAT(starts_by_count(20, 6, 0), ElementsAre(0, 6, 12));
+  EXPECT_THAT(starts_by_count(20, 6, 0.5), ElementsAre(0, 3, 9, 15));
+  EXPECT_THAT(starts_by_count(3, 1, 0.5), ElementsAre(0, 1, 2));
+  EXPECT_THAT(starts_by_count(2, 6, 0.5), ElementsAre(0));
+}
+
 TEST(SegmentByCount, KeepsASingleSegmentHoweverShort) {
   EXPECT_THAT(starts_by_count(2, 60), ElementsAre(0));
   EXPECT_THAT(starts_by_count(0, 60), IsEmpty());

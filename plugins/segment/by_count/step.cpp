@@ -20,6 +20,7 @@ struct ByCount : WholeStep {
   struct Params {
     std::uint32_t frames = 60;
     std::optional<std::uint32_t> segments;
+    double phase = 0;
   };
 
   static void describe(Declaration<ByCount>& is) {
@@ -38,13 +39,17 @@ struct ByCount : WholeStep {
             "about so many segments: the frames of each follow from the number of all frames, "
             "rounded up; none: 'frames' each")
         .source("[Tang2024] 2.2, without a rule");
+    is.param("phase", &Params::phase)
+        .unit("%")
+        .range(0, 0.5)
+        .doc("share of 'frames' that the first segment has fewer, which moves all cuts");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
     Out out;
     const std::size_t all = in.trajectory->size();
     const std::size_t each = params.segments ? frames_for(all, *params.segments) : params.frames;
-    out.ranges = ranges_from(*in.trajectory, starts_by_count(all, each));
+    out.ranges = ranges_from(*in.trajectory, starts_by_count(all, each, params.phase));
     out.poses = poses_of(out.ranges);
     return out;
   }

@@ -31,6 +31,13 @@ TEST(SegmentByDistance, JoinsALastSegmentUnderHalfToTheOneBefore) {
               ElementsAre(0, 3));  // exactly half stays
 }
 
+TEST(SegmentByDistance, MovesAllCutsByItsPhase) {
+  const std::vector<double> travelled{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0), ElementsAre(0, 5, 10));
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0.25), ElementsAre(0, 4, 9));
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0.5), ElementsAre(0, 3, 8));
+}
+
 TEST(SegmentByDistance, DoesNotCutWhileTheSensorRests) {
   EXPECT_THAT(starts_by_distance(std::vector<double>(1000, 0.0), 15, {}), ElementsAre(0));
 }

@@ -26,6 +26,7 @@ struct ByDistance : WholeStep {
     std::optional<double> max_duration;
     std::optional<double> max_length;
     std::uint32_t max_segments = 1000;
+    double phase = 0;
     std::string check() const {
       return max_length && *max_length < length
                  ? "max_length must not be smaller than length, from which it grows"
@@ -66,6 +67,10 @@ struct ByDistance : WholeStep {
             "'length' grows up to this where the path would give more than 'max_segments'; none: "
             "it does not grow");
     is.param("max_segments", &Params::max_segments).range(1, 1e9).doc("see 'max_length'");
+    is.param("phase", &Params::phase)
+        .unit("%")
+        .range(0, 0.5)
+        .doc("share of 'length' by which the first segment is shorter, which moves all cuts");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
@@ -81,8 +86,8 @@ struct ByDistance : WholeStep {
     const auto path = travelled(*in.trajectory);
     const double length = grown_length(path.empty() ? 0 : path.back(), params.length,
                                        params.max_length, params.max_segments);
-    out.ranges =
-        ranges_from(*in.trajectory, starts_by_distance(path, length, params.max_frames, breaks));
+    out.ranges = ranges_from(
+        *in.trajectory, starts_by_distance(path, length, params.max_frames, breaks, params.phase));
     out.poses = poses_of(out.ranges);
     return out;
   }

@@ -5,7 +5,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from judge import Trajectory, frames_of, points_of
-from plumb_test import CAR, CASCADE, PIPELINES, PLANAR, STEP_FAILED, UNIMPROVED, cascade, plumb, refused, score, sequence
+from plumb_test import CAR, CASCADE, PIPELINES, PLANAR, STEP_FAILED, UNIMPROVED, WRONG_INPUT, cascade, plumb, refused, score, sequence
 
 HANDHELD = PIPELINES / "presets/handheld_solid_state.yaml"
 MULRAN = PIPELINES / "presets/mulran_os1_64.yaml"
@@ -13,10 +13,17 @@ FILES = ["graph.g2o", "map.ply", "metrics.json", "run.lock.yaml", "trajectory.tu
 
 
 def test_all_are_known_to_these_cases(folder):
-    """A new pipeline needs a case here."""
+    """A new pipeline needs a case here, and so does an experiment."""
+    experiments = [PIPELINES / "experiments" / name for name in ("unimproved.yaml", "voxel_size.yaml")]  # the next case
     elsewhere = [PLANAR, UNIMPROVED, PIPELINES / "judge2d.yaml", PIPELINES / "plumb.yaml"]  # planar.py, compare.py, recommended.py
     elsewhere += [PIPELINES / f"presets/{name}.yaml" for name in ("tang2024_literal", "zhang2023_literal", "zhang2023_literal_unimproved")]  # literal.py
-    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN, *elsewhere])
+    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([*experiments, CASCADE, CAR, HANDHELD, MULRAN, *elsewhere])
+
+
+def test_experiments_can_be_run(folder):
+    """All but the inputs is there: what they name is read before the first input is looked at."""
+    for file in sorted((PIPELINES / "experiments").glob("*.yaml")):
+        refused(plumb("compare", file, "--input", folder / "nowhere", code=WRONG_INPUT), f"--input {folder}/nowhere: there is no such file or folder")
 
 
 def test_all_check_clean(folder):

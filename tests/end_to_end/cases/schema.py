@@ -5,13 +5,13 @@ import re
 import jsonschema
 import yaml
 
-from plumb_test import CASCADE, PIPELINES, SOURCE, WRONG_INPUT, plumb, step_names
+from plumb_test import CASCADE, SOURCE, WRONG_INPUT, plumb, shipped_pipelines, step_names
 
 SCHEMA = SOURCE / "schemas/pipeline.schema.json"
 
 
 def pipelines():
-    files = sorted(PIPELINES.rglob("*.yaml"))
+    files = shipped_pipelines()
     assert len(files) >= 4, files
     return files
 

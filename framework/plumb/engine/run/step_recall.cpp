@@ -5,6 +5,8 @@
 /// the store keeps what others may ask of the step short of its values (store/index.hpp). A run in
 /// which nothing changed recalls every step but the sources, and opens the documents alone. A value
 /// that somebody does ask for comes from the store as ever, and is made again if it is gone.
+#include <algorithm>
+
 #include "plumb/data/error.hpp"
 #include "plumb/engine/plan/step_key.hpp"
 #include "plumb/engine/run/step_run.hpp"
@@ -51,6 +53,11 @@ bool StepRun::recall() {
   auto known = store->index()->recalled(recall_key_);
   if (!known || !fits(*known)) return false;
   const bool whole = !itemwise() && !lazy(), items = itemwise() && keeping_ != Keeping::passing;
+  const auto of_earlier_run = [&](const Hash128& key) { return !state_.results.in_store(key); };
+  std::size_t earlier = 0;
+  if (whole) earlier = of_earlier_run(known->whole) ? 1 : 0;
+  if (items)
+    earlier = static_cast<std::size_t>(std::ranges::count_if(known->items, of_earlier_run));
   if (state_.executor.elsewhere() && (whole || items) && !all_in_store(*known)) return false;
   if (whole && !take_numbers(known->numbers)) return false;
   StoredResult said;
@@ -61,6 +68,7 @@ bool StepRun::recall() {
     store->hold(whole ? std::span<const Hash128>(&known->whole, 1) : known->items);
     state_.books.step_begins(plan_.path, state_.pass, whole ? 1 : known->items.size());
     state_.books.all_reused(plan_.path, state_.pass, whole ? 1 : known->items.size());
+    state_.books.from_earlier_run(plan_.path, earlier);
     recalled_ = true;
   }
   say_again(said);

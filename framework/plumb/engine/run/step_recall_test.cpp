@@ -155,6 +155,21 @@ TEST_F(Recall, NothingButTheDocumentsHasToBeThere) {
   EXPECT_EQ(second.loops[0].why, first.loops[0].why);
 }
 
+TEST_F(Recall, IsBookedAsAnEarlierRunsAndNotWhatTheRunItselfHadMade) {
+  std::size_t in_first = 0, in_second = 0;
+  const RunResult first = run(plan()), second = run(plan());
+  for (const StepTime& time : first.times) {
+    in_first += time.remembered;  // pairs do not see poses: made in the first pass for all
+    EXPECT_EQ(time.earlier, 0u) << time.path;
+  }
+  EXPECT_GT(in_first, 0u);
+  for (const StepTime& time : second.times) {
+    in_second += time.remembered;
+    EXPECT_EQ(time.earlier, time.remembered) << time.path;
+  }
+  EXPECT_GT(in_second, in_first);
+}
+
 TEST_F(Recall, WhatSomebodyAsksForAndIsGoneIsMadeAgain) {
   const std::string more =
       "  again: {use: test.write, from: {metrics: loop.solved.metrics}, with: {name: b.txt}}\n"

@@ -48,7 +48,10 @@ bool StepRun::find_whole() {
   const bool here = store && state_.results.in_store(whole_key_);
   auto found = find(whole_key_);
   if (!found) return false;
-  if (store && !here) say_again(*found);
+  if (store && !here) {
+    say_again(*found);
+    state_.books.from_earlier_run(plan_.path, 1);
+  }
   if (!state_.results.in_store(whole_key_) || stays_in_memory(*found))
     whole_pin_ = std::move(found);
   return true;
