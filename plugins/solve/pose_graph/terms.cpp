@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "costs.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 

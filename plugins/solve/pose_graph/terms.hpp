@@ -2,6 +2,7 @@
 /// The terms of the graph's cost under the present poses, each with its present weight, and the
 /// problem in Ceres that sums them.
 
+#include <ceres/cost_function.h>
 #include <ceres/problem.h>
 
 #include <cstdint>

@@ -7,6 +7,7 @@
 
 #include "graph_testing.hpp"
 #include "plumb/data/error.hpp"
+#include "plumb/slam/geometry/pair_moments.hpp"
 
 namespace plumb::solve_pose_graph {
 namespace {
