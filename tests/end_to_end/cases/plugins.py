@@ -4,7 +4,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb_test import BUILD, CASCADE, PLUMB, SOURCE, WRONG_INPUT, nothing_left, plumb, refused, sequence, skip, step_names
+from plumb_test import BUILD, CASCADE, SOURCE, WRONG_INPUT, installation, nothing_left, plumb, refused, sequence, skip, step_names
 
 
 def run(*command, **options):
@@ -75,20 +75,6 @@ def refuses_the_cascade(folder, step, **options):
     said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "-o", folder / "refused", code=WRONG_INPUT, **options)
     said.has(f"tang2024.yaml:{line}:", f"no module offers '{step}'", "plumb list")
     nothing_left(folder / "refused")
-
-
-def installation(folder):
-    """The command and its modules, copied into a folder where single modules can be changed. Returns (program, modules, environment)."""
-    modules = folder / "lib/plumb"
-    modules.mkdir(parents=True)
-    modules.chmod(0o755)
-    (folder / "bin").mkdir()
-    shutil.copy(PLUMB, folder / "bin/plumb")
-    for name in ("libplumb", "libplumb_slam"):
-        shutil.copy(next((BUILD / "lib").glob(f"{name}.so.*.*")), folder / f"lib/{name}.so.0")
-    for file in (BUILD / "lib/plumb").iterdir():
-        shutil.copy(file, modules / file.name)
-    return folder / "bin/plumb", modules, {"LD_LIBRARY_PATH": str(folder / "lib")}
 
 
 def steps_by_library():
