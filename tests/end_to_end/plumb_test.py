@@ -150,6 +150,19 @@ def left_out():
     return dict(line.split(": ", 1) for line in file.read_text().splitlines())
 
 
+def steps_by_library():
+    """{step: (library, package)} of the steps that are not built without an optional library, by what their CMakeLists.txt say."""
+    found = {}
+    for file in sorted((SOURCE / "plugins").glob("*/*/CMakeLists.txt")):
+        text, step = file.read_text(), ".".join(file.parts[-3:-1])
+        for word, library, package in (("plumb_add_pcl_step(", "PCL", "libpcl-dev"), ("TARGET plumb_shared_cgal", "CGAL 5.5", "libcgal-dev"),
+                                       ("flann/", "FLANN", "libflann-dev")):
+            if word in text and not step.startswith("shared."):
+                found[step] = (library, package)
+    assert {"keypoints.iss", "segment.planes", "match.features_flann"} < set(found), found
+    return found
+
+
 def installation(folder):
     """The command and its modules, copied into a folder where single modules can be changed. Returns (program, modules, environment)."""
     modules = folder / "lib/plumb"

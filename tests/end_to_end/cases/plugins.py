@@ -4,7 +4,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb_test import BUILD, CASCADE, SOURCE, WRONG_INPUT, installation, nothing_left, plumb, refused, sequence, skip, step_names
+from plumb_test import BUILD, CASCADE, SOURCE, WRONG_INPUT, installation, nothing_left, plumb, refused, sequence, skip, step_names, steps_by_library
 
 
 def run(*command, **options):
@@ -75,19 +75,6 @@ def refuses_the_cascade(folder, step, **options):
     said = plumb("run", CASCADE, "--set", f"input={sequence('straight')}", "-o", folder / "refused", code=WRONG_INPUT, **options)
     said.has(f"tang2024.yaml:{line}:", f"no module offers '{step}'", "plumb list")
     nothing_left(folder / "refused")
-
-
-def steps_by_library():
-    """{step: (library, package)} of the steps that are not built without an optional library, by what their CMakeLists.txt say."""
-    found = {}
-    for file in sorted((SOURCE / "plugins").glob("*/*/CMakeLists.txt")):
-        text, step = file.read_text(), ".".join(file.parts[-3:-1])
-        for word, library, package in (("plumb_add_pcl_step(", "PCL", "libpcl-dev"), ("TARGET plumb_shared_cgal", "CGAL 5.5", "libcgal-dev"),
-                                       ("flann/", "FLANN", "libflann-dev")):
-            if word in text and not step.startswith("shared."):
-                found[step] = (library, package)
-    assert {"keypoints.iss", "segment.planes", "match.features_flann"} < set(found), found
-    return found
 
 
 def test_without_optional_libraries_their_steps_are_left_out_and_that_is_said(folder):
