@@ -57,7 +57,7 @@ function(plumb_close_folder folder)
 endfunction()
 
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES")
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
@@ -95,7 +95,7 @@ function(plumb_add_step step)
     add_custom_command(TARGET step_${id} POST_BUILD
                        COMMAND chmod go-w $<TARGET_FILE:step_${id}>
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
-                               ${arg_LICENCE} ${arg_LICENCE_REASON}
+                               ${arg_LICENCE} "${arg_LICENCE_REASON}"
                        COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
                        COMMENT "Manifest of ${step}" VERBATIM)
     add_dependencies(step_${id} plumb_manifest)
@@ -120,21 +120,27 @@ function(plumb_add_step step)
   endif()
 endfunction()
 
-# plumb_leave_out(LIBRARY STEP): a step that is not built because an optional library is not there. plumb_say_left_out() names them, in one line for each
-# library.
-function(plumb_leave_out library step)
-  set_property(GLOBAL APPEND PROPERTY PLUMB_STEPS_WITHOUT_${library} ${step})
+# plumb_leave_out(STEP LIBRARY PACKAGE): a step that is not built because LIBRARY was not found, which Debian's PACKAGE brings. plumb_say_left_out() says so in
+# one line for each library, and writes it beside the modules (plugin/left_out.hpp): `plumb doctor` lists it, and who names such a step is told.
+function(plumb_leave_out step library package)
+  set_property(GLOBAL APPEND_STRING PROPERTY PLUMB_LEFT_OUT "${step}: ${library} was not found; install ${package} and build again\n")
+  set_property(GLOBAL APPEND PROPERTY "PLUMB_STEPS_WITHOUT_${library}" ${step})
   get_property(known GLOBAL PROPERTY PLUMB_LIBRARIES_MISSED)
   if(NOT library IN_LIST known)
-    set_property(GLOBAL APPEND PROPERTY PLUMB_LIBRARIES_MISSED ${library})
+    set_property(GLOBAL APPEND PROPERTY PLUMB_LIBRARIES_MISSED "${library}")
   endif()
 endfunction()
 
 function(plumb_say_left_out)
   get_property(libraries GLOBAL PROPERTY PLUMB_LIBRARIES_MISSED)
   foreach(library IN LISTS libraries)
-    get_property(steps GLOBAL PROPERTY PLUMB_STEPS_WITHOUT_${library})
+    get_property(steps GLOBAL PROPERTY "PLUMB_STEPS_WITHOUT_${library}")
     list(JOIN steps ", " steps)
-    message(STATUS "${library} not found: left out are ${steps}")
+    message(STATUS "${library} was not found: left out are ${steps}")
   endforeach()
+  get_property(lines GLOBAL PROPERTY PLUMB_LEFT_OUT)
+  set(file ${PLUMB_MODULE_DIR}/left_out.txt)
+  file(WRITE ${file} "${lines}")  # empty where nothing is left out: an installation over an earlier one then says so too
+  file(CHMOD ${file} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  install(FILES ${file} DESTINATION lib/plumb)
 endfunction()

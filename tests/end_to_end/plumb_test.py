@@ -133,6 +133,8 @@ steps:
 def poses_pipeline(folder):
     (folder / "poses.yaml").write_text(POSES)
     return folder / "poses.yaml"
+
+
 def shipped_pipelines():
     """Every pipeline and preset; not the experiments, which name some of them."""
     return sorted(file for file in PIPELINES.rglob("*.yaml") if file.parent.name != "experiments")
@@ -140,6 +142,39 @@ def shipped_pipelines():
 
 def step_names():
     return [line.split()[0] for line in plumb("list").out.splitlines()]
+
+
+def left_out():
+    """{step: why} of those that this build left out, since a library was not found."""
+    file = BUILD / "lib/plumb/left_out.txt"
+    return dict(line.split(": ", 1) for line in file.read_text().splitlines())
+
+
+def steps_by_library():
+    """{step: (library, package)} of the steps that are not built without an optional library, by what their CMakeLists.txt say."""
+    found = {}
+    for file in sorted((SOURCE / "plugins").glob("*/*/CMakeLists.txt")):
+        text, step = file.read_text(), ".".join(file.parts[-3:-1])
+        for word, library, package in (("plumb_add_pcl_step(", "PCL", "libpcl-dev"), ("TARGET plumb_shared_cgal", "CGAL 5.5", "libcgal-dev"),
+                                       ("flann/", "FLANN", "libflann-dev")):
+            if word in text and not step.startswith("shared."):
+                found[step] = (library, package)
+    assert {"keypoints.iss", "segment.planes", "match.features_flann"} < set(found), found
+    return found
+
+
+def installation(folder):
+    """The command and its modules, copied into a folder where single modules can be changed. Returns (program, modules, environment)."""
+    modules = folder / "lib/plumb"
+    modules.mkdir(parents=True)
+    modules.chmod(0o755)
+    (folder / "bin").mkdir()
+    shutil.copy(PLUMB, folder / "bin/plumb")
+    for name in ("libplumb", "libplumb_slam"):
+        shutil.copy(next((BUILD / "lib").glob(f"{name}.so.*.*")), folder / f"lib/{name}.so.0")
+    for file in (BUILD / "lib/plumb").iterdir():
+        shutil.copy(file, modules / file.name)
+    return folder / "bin/plumb", modules, {"LD_LIBRARY_PATH": str(folder / "lib")}
 
 
 def copy_of(name, folder, frames=None):

@@ -43,6 +43,30 @@ TEST(Mistakes, OfNamingFilesThatAreNotThere) {
   EXPECT_THAT(in_set, HasSubstr("Asked for at " + place + "/a.yaml:8:3."));
 }
 
+TEST(Mistakes, OfNamingAStepThatTheBuildLeftOut) {
+  namespace fs = std::filesystem;
+  const test::Folder folder;
+  const fs::path modules = folder.path() / "modules";
+  const fs::path file = folder.write("modules/left_out.txt",
+                                     "describe.vfh: PCL was not found; install libpcl-dev and "
+                                     "build again\n");
+  fs::permissions(modules, static_cast<fs::perms>(0755));
+  fs::permissions(file, static_cast<fs::perms>(0644));
+  Registry registry = Registry::scan({modules});
+  test::add_cloud_steps(registry);
+  test::add_graph_steps(registry);
+  const fs::path pipeline = folder.write("a.yaml", with("use: describe.fpfh", "use: describe.vfh"));
+  try {
+    read_pipeline(pipeline, {{}, {"input=data"}, false}, registry);
+    FAIL();
+  } catch (const PipelineError& error) {
+    EXPECT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_THAT(error.what(),
+                HasSubstr("a.yaml:13:19: step 'fpfh': 'describe.vfh' is not in this build: PCL "
+                          "was not found; install libpcl-dev and build again.\n"));
+  }
+}
+
 TEST(Mistakes, OfFilesThatAreNotThere) {
   try {
     read_pipeline("no/such.yaml", {}, test::registry());

@@ -4,9 +4,11 @@ import io
 import itertools
 import json
 import math
+import subprocess
+import sys
 from xml.etree import ElementTree
 
-from plumb_test import DONE, NOTHING, STEP_FAILED, UNSETTLED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, plumb, refused
+from plumb_test import DONE, NOTHING, PIPELINES, SOURCE, STEP_FAILED, UNSETTLED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, plumb, refused
 
 # The odometry itself is judged: a run of a moment, whose error the replicates change a little and `odometry: ignore` very much.
 ODOMETRY = """plumb: 1
@@ -321,6 +323,28 @@ def test_replicates_disturb_all_variants_alike_and_are_kept_apart(folder):
     assert sorted(p.name for p in (folder / "out/wheels/rooms_1").iterdir()) == ["replicate_1", "replicate_2", "replicate_3"]
     locks = [(folder / f"out/wheels/rooms_1/replicate_{k}/run.lock.yaml").read_text() for k in (1, 2, 3)]
     assert "drop_frames: 10 %" not in locks[0] and all("drop_frames: 10 %" in lock for lock in locks[1:]), locks
+
+
+def test_the_tables_of_a_page_follow_from_a_result(folder):
+    """tools/packages.py, by the result of another experiment."""
+    file = experiment(folder, rooms(folder, 2), "variants:\n  same: {}\n  blind: {set: {odometry: ignore}}\n")
+    made = outcome(file, "--save", folder / "a.json", code=(DONE, WORSE))
+    shipped = (PIPELINES / "experiments/README.md").read_text()
+    (folder / "page.md").write_text(shipped)
+    tool = [sys.executable, str(SOURCE / "tools/packages.py"), "--from", str(folder / "a.json"), "--page", str(folder / "page.md")]
+    subprocess.run(tool, check=True, capture_output=True)
+    page = (folder / "page.md").read_text()
+    mark = "<!-- tools/packages.py writes what follows -->\n"
+    assert page.partition(mark)[0] == shipped.partition(mark)[0] and page.endswith(shipped[shipped.rindex("<!--"):])
+    tables = page[page.index(mark):page.rindex("<!--")]
+    assert tables.startswith(f"{mark}\n2 variants on 2 inputs; no runs failed. `error.fine.ate` decides;") and "?" not in tables, tables
+    assert "| `same` | +0.0 % (+0.0 % to +0.0 %) | 0 / 0 | - | equivalent | +0.0 % (+0.0 % to +0.0 %) |\n" in tables, tables
+    found = against(made, "blind")
+    assert f"| `blind` | {100 * (found['ratio'] - 1):+.0f} % (" in tables and f"| {found['verdict']}, on these data |" in tables, tables
+    values = number_of(made)["variants"]["blind"]["values"]
+    assert f"| rooms_1 | {number_of(made)['variants']['wheels']['values'][0]:.3f} |" in tables and f"| {values[0]:.3f} (`blind`) |" in tables, tables
+    subprocess.run(tool, check=True, capture_output=True)
+    assert (folder / "page.md").read_text() == page
 
 
 def test_a_result_that_cannot_be_saved_is_said(folder):

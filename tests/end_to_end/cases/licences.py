@@ -3,9 +3,9 @@ import functools
 import json
 import re
 import shutil
-import subprocess
 
-from plumb_test import BUILD, WRONG_INPUT, plumb, skip, step_names
+from built import headers_of, lines_of, manifests, module_file, name_of, needed_by, objects_of_module
+from plumb_test import BUILD, WRONG_INPUT, plumb, step_names
 
 # What a module may link: of the system and of libplumb, under a BSD licence, and what asks for a licence of its own to be stated.
 SYSTEM = {"libc", "libm", "libmvec", "libdl", "librt", "libpthread", "libstdc++", "libgcc_s", "libatomic", "ld-linux-x86-64", "libplumb", "libplumb_slam", "libtbb"}
@@ -24,47 +24,25 @@ STATED = {"libbz2": {"bzip2-1.0.6"}, "liblz4": {"BSD-2-Clause"}, "libz": {"Zlib"
 HEADERS = {"/flann/": {"BSD-2-Clause"}, "/CGAL/": None}
 
 
-def manifests():
-    files = sorted((BUILD / "lib/plumb").glob("*.json"))
-    assert files
-    return {file.stem: json.loads(file.read_text()) for file in files}
-
-
-def lines_of(tool, *arguments):
-    if not shutil.which(tool):
-        skip(f"{tool} is not on this machine")
-    done = subprocess.run([tool, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
-
-
-def name_of(library):
-    return library.split(".so")[0].split("/")[-1]
-
-
 def loaded_by(file):
     """The names of all that the loader takes for it, directly or not."""
     return {name_of(line.split()[0]) for line in lines_of("ldd", file) if line.strip()}
 
 
-def brought_by_headers():
-    """{module: what the headers that the compiler read for its own code come under}."""
-    found, module = {}, None
-    for line in lines_of("ninja", "-C", BUILD, "-t", "deps"):
-        if line and not line.startswith(" "):
-            of = re.search(r"/(\w+)_objects\.dir/", line)
-            module = found.setdefault(of[1], set()) if of else None
-        elif module is not None:
-            for folder in HEADERS:
-                if folder in line:
-                    module |= HEADERS[folder] or spdx_of(line.strip())
+def brought_by_headers(module):
+    """What the headers that the compiler read for its own code come under."""
+    found = set()
+    for header in headers_of(objects_of_module(module)):
+        for folder in HEADERS:
+            if folder in header:
+                found |= HEADERS[folder] or spdx_of(header)
     return found
 
 
 @functools.cache
 def spdx_of(header):
     """What a header says of itself; of a choice the first. None of Boost's licence, which asks nothing of who links."""
-    with open(BUILD / header, encoding="utf-8", errors="replace") as text:
+    with open(header, encoding="utf-8", errors="replace") as text:
         stated = re.search(r"SPDX-License-Identifier: (\S+)", text.read(4000))
     assert stated, f"{header} states no licence"
     return frozenset({stated[1]} - {"BSL-1.0"})
@@ -100,15 +78,15 @@ def test_inspect_shows_the_licences_and_the_reason(folder):
 
 
 def test_a_module_states_the_licences_of_all_that_it_links_and_of_the_headers_it_is_compiled_with(folder):
-    of_libplumb, by_headers = loaded_by(BUILD / "lib/libplumb_slam.so"), brought_by_headers()
+    of_libplumb = loaded_by(BUILD / "lib/libplumb_slam.so")
     assert not [name for name in of_libplumb & set(STATED) if any("GPL" in licence for licence in STATED[name])], of_libplumb
     for module, manifest in manifests().items():
-        file, stated = BUILD / "lib/plumb" / (module + ".so"), set(manifest["licence"]["expression"].split(" AND "))
-        linked = {name_of(name) for name in re.findall(r"\(NEEDED\).*\[(.+)\]", "\n".join(lines_of("readelf", "-d", file)))}
+        file, stated = module_file(module), set(manifest["licence"]["expression"].split(" AND "))
+        linked = needed_by(file)
         unknown = {name for name in linked - SYSTEM - BSD - set(STATED) if not re.fullmatch(r"lib[a-z]+san", name)}  # sanitizers' builds
         assert not unknown, f"{module} links {sorted(unknown)}: add to STATED what that asks for, and this to the module's LICENCE"
         loaded = linked | (loaded_by(file) - of_libplumb)
-        brought = set().union(*(STATED[name] for name in loaded & set(STATED)), by_headers[module.replace(".", "_")])
+        brought = set().union(*(STATED[name] for name in loaded & set(STATED)), brought_by_headers(module))
         assert {"BSD-3-Clause"} | brought <= stated, f"{module} loads what is {sorted(brought)} and states {sorted(stated)}"
         assert {licence for licence in stated if "GPL" in licence} <= brought, f"{module} states {sorted(stated)} and loads what is {sorted(brought)}"
         assert manifest["licence"]["reason"] or not brought, module
