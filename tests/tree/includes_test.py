@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Who includes whom: as CONTRIBUTING.md's table 'Where a line lives' allows it, and never in a circle.
+"""Who includes whom: as CONTRIBUTING.md's table 'Where a line lives' allows it, and never in a cycle.
 
     python3 tests/tree/includes_test.py [SOURCE]
 
@@ -29,7 +29,7 @@ def allowed_uses(contributing):
     assert not unknown, f"CONTRIBUTING.md: may use {sorted(unknown)}, which have no row of their own"
 
     def reached(folder, on_the_way):
-        assert folder not in on_the_way, f"CONTRIBUTING.md: {' -> '.join(on_the_way + (folder,))} is a circle"
+        assert folder not in on_the_way, f"CONTRIBUTING.md: {' -> '.join(on_the_way + (folder,))} is a cycle"
         found = set()
         for use in direct[folder]:
             found |= {use} | reached(use, on_the_way + (folder,))
@@ -111,7 +111,7 @@ def faults_of_plugins(source, rows):
             yield f"{shown} opens namespace {other}, but its folder has {own}"
 
 
-def circles(source):
+def cycles(source):
     """Headers that include each other, by whatever way."""
     uses = {str(f.relative_to(root)): INCLUDE.findall(f.read_text())
             for root, below in ((source / "framework", "."), (source / "plugins", "shared")) for f in (root / below).rglob("*.hpp")}
@@ -134,7 +134,7 @@ def circles(source):
 def faults_of(source):
     rows = allowed_uses((source / "CONTRIBUTING.md").read_text())
     return [*faults_of_framework(source, rows), *faults_of_core(source), *faults_of_plugins(source, rows),
-            *(f"a circle: {circle}" for circle in circles(source))]
+            *(f"a cycle: {cycle}" for cycle in cycles(source))]
 
 
 def sees_what_is_wrong():
@@ -165,7 +165,7 @@ def sees_what_is_wrong():
         for name, include, said in (("framework/plumb/low/d.hpp", "plumb/high/c.hpp", "`low` may not use `high`"),
                                     ("framework/plumb/high/inner/d.hpp", "plumb/high/c.hpp", "`high/inner` may not use `high`"),
                                     ("framework/plumb/low/d.hpp", "a.hpp", "PART/FILE"),
-                                    ("framework/plumb/low/a.hpp", "plumb/low/a.hpp", "a circle"),
+                                    ("framework/plumb/low/a.hpp", "plumb/low/a.hpp", "a cycle"),
                                     ("plugins/two/step/step.cpp", "../../one/step/kernel.hpp", "not in its folder"),
                                     ("plugins/two/step/step.cpp", "plumb/high/c.hpp", "may not use `high`"),
                                     ("plugins/two/step/step.cpp", "shared/lib/lib.hpp", "does not link plumb_shared_lib"),
@@ -173,7 +173,7 @@ def sees_what_is_wrong():
                                     ("plugins/one/step/step.cpp", "shared/lib/lib_testing.hpp", "for tests"),
                                     ("plugins/shared/lib/more.hpp", "plumb/high/c.hpp", "`plugins/shared` may not use `high`"),
                                     ("plugins/shared/lib/more.hpp", "../../one/step/kernel.hpp", "not in its folder"),
-                                    ("plugins/shared/lib/lib.hpp", "shared/lib/lib.hpp", "a circle")):
+                                    ("plugins/shared/lib/lib.hpp", "shared/lib/lib.hpp", "a cycle")):
             before = (source / name).read_text() if (source / name).exists() else None
             write(name, include)
             found = faults_of(source)

@@ -80,14 +80,13 @@ void set_up(plumb::command::Program& program) {
   command.footer(
       "Start with:\n"
       "  plumb simulate city_loop -o street               a sequence with drift and exact truth\n"
-      "  plumb run pipelines/tang2024.yaml --set input=street -o out\n"
+      "  plumb run pipelines/plumb.yaml --set input=street -o out\n"
       "  plumb list; plumb inspect describe.fpfh         what a pipeline can be made of\n\n"
-      "Exit: 0 done; 1 refused before anything ran; 2 the command line is wrong: an option, its "
-      "value, or two that do not go together;\n"
-      "3 a step refused its input or failed while running;\n"
-      "4 done and all results in place, but something about them is not as it should be: standard "
-      "output did not take what was to be said,\n"
-      "or the disk did not take the end of it; it is said which.");
+      "Exit: 0 done; 1 refused before anything ran, or a fault found by doctor or cache verify;\n"
+      "2 the command line is wrong: an option, its value, or two that do not go together;\n"
+      "3 a step refused its input or failed while running, or the results could not be written;\n"
+      "4 done and the results in place, but standard output or the disk reported an error at the "
+      "end, which is printed.");
   command.require_subcommand(1, 1);
   command.fallthrough();  // what stands below serves behind the sub-command as well
   command

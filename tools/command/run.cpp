@@ -269,8 +269,7 @@ void add_run(Command& program) {
   add_reports(command, *options);
   add_locked(command, *options);
   command.footer(
-      "Example: plumb run pipelines/tang2024.yaml --preset pipelines/presets/car_64line.yaml --set "
-      "input=DIR -o OUT\n"
+      "Example: plumb run pipelines/plumb.yaml --set input=DIR -o OUT\n"
       "The results are the same for any number of threads. No results are left behind when a run "
       "fails or is interrupted.");
   command.callback([options, command] {

@@ -1,5 +1,6 @@
 """A step is a folder: without it the project configures and builds, and a pipeline that names it is refused. A foreign module is too."""
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -287,3 +288,15 @@ def test_the_installed_command_finds_its_modules_beside_it(folder):
     plumb("doctor", program=program).has(str((folder / "usr/lib/plumb").resolve()))
     os.rename(folder / "usr", folder / "moved")
     plumb("doctor", program=Path(folder / "moved/bin/plumb")).has(str((folder / "moved/lib/plumb").resolve()))
+
+
+def test_the_installed_headers_include_none_that_are_not_installed(folder):
+    if not (BUILD / "cmake_install.cmake").exists():
+        skip("this build cannot be installed from here")
+    run("cmake", "--install", BUILD, "--prefix", folder / "usr")
+    headers = folder / "usr/include"
+    files = sorted(headers.rglob("*.hpp"))
+    assert headers / "plumb/plugin/module.hpp" in files and headers / "plumb/slam/step.hpp" in files, files
+    missing = [f"{file.relative_to(headers)} includes {name}" for file in files
+               for name in re.findall(r'^#include "([^"]+)"', file.read_text(), re.M) if not (headers / name).is_file()]
+    assert not missing, missing

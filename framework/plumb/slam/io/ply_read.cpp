@@ -212,11 +212,4 @@ CloudFile read_ply(const Path& file) {
   refuse(file, "has no element 'vertex': this PLY file holds no points");
 }
 
-CloudFile read_cloud(const Path& file) {
-  const auto extension = file.extension();
-  if (extension == ".pcd" || extension == ".PCD") return read_pcd(file);
-  if (extension == ".ply" || extension == ".PLY") return read_ply(file);
-  refuse(file, "the name ends in " + in_quotes(extension.string()) + ": give a .pcd or .ply file");
-}
-
 }  // namespace plumb
