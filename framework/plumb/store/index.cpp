@@ -38,8 +38,7 @@ void Index::gone(const Hash128& key) {
 std::vector<Fact> Index::facts(const std::string& pipeline, const std::string& path, int pass) {
   {
     const std::lock_guard lock(notes_mutex_);
-    if (const auto at = notes_.facts.find({pipeline, path, pass}); at != notes_.facts.end())
-      return at->second;
+    if (const auto* facts = noted(&Notes::facts, {pipeline, path, pass})) return *facts;
   }
   std::vector<Fact> found;
   file_->with([&](Database& database) {
@@ -67,10 +66,9 @@ std::optional<Hash128> Index::file_hash(const std::string& path, std::uint64_t s
                                         std::int64_t mtime_ns) {
   {
     const std::lock_guard lock(notes_mutex_);
-    if (const auto at = notes_.file_hashes.find(path); at != notes_.file_hashes.end())
-      return at->second.size == size && at->second.mtime_ns == mtime_ns
-                 ? std::optional(at->second.hash)
-                 : std::nullopt;
+    if (const FileHash* seen = noted(&Notes::file_hashes, path))
+      return seen->size == size && seen->mtime_ns == mtime_ns ? std::optional(seen->hash)
+                                                              : std::nullopt;
   }
   std::optional<Hash128> found;
   file_->with([&](Database& database) {
@@ -91,28 +89,31 @@ void Index::set_file_hash(const std::string& path, std::uint64_t size, std::int6
   notes_.file_hashes[path] = {size, mtime_ns, hash};
 }
 
+/// Whoever asks meanwhile finds what is being written in the notes until it is in the database.
 void Index::flush() {
   const std::lock_guard one_flush(flush_mutex_);
-  Notes notes;
   {
     const std::lock_guard lock(notes_mutex_);
-    std::swap(notes, notes_);
+    std::swap(writing_, notes_);
   }
-  if (notes.empty()) return;
+  if (writing_.empty()) return;
   bool written = false;
   file_->with([&](Database& database) {
     Transaction transaction(database);
-    write(database, notes);
+    write(database, writing_);
     transaction.commit();
     written = true;
   });
-  if (written || !fault().empty()) return;
-  const std::lock_guard lock(notes_mutex_);  // others kept it busy: the next time
-  notes_.results.merge(notes.results);
-  notes_.facts.merge(notes.facts);
-  notes_.file_hashes.merge(notes.file_hashes);
-  notes_.recalled.merge(notes.recalled);
-  notes_.recalled_again.merge(notes.recalled_again);
+  Notes done;  // declared before the lock: what was written is freed after it
+  const std::lock_guard lock(notes_mutex_);
+  if (!written && fault().empty()) {  // others kept it busy: the next time
+    notes_.results.merge(writing_.results);
+    notes_.facts.merge(writing_.facts);
+    notes_.file_hashes.merge(writing_.file_hashes);
+    notes_.recalled.merge(writing_.recalled);
+    notes_.recalled_again.merge(writing_.recalled_again);
+  }
+  std::swap(done, writing_);
 }
 
 void Index::write(Database& database, const Notes& notes) {

@@ -138,11 +138,23 @@ class Index {
   };
 
   void write(Database& database, const Notes& notes);
+  /// What was noted of something and is not known to be in the database yet; null for nothing.
+  /// notes_mutex_ is held.
+  template <class Map>
+  const typename Map::mapped_type* noted(Map Notes::*where,
+                                         const typename Map::key_type& what) const {
+    for (const Notes* notes : {&notes_, &writing_}) {
+      const Map& map = notes->*where;
+      if (const auto at = map.find(what); at != map.end()) return &at->second;
+    }
+    return nullptr;
+  }
 
   std::filesystem::path store_;
   std::mutex flush_mutex_;  ///< so that what was noted later is written later
   std::mutex notes_mutex_;
-  Notes notes_;  ///< what flush() is to write
+  Notes notes_;    ///< what flush() is to write
+  Notes writing_;  ///< what it writes; changed with both mutexes held
   std::unique_ptr<IndexFile> file_;
 };
 

@@ -62,7 +62,7 @@ std::int64_t first_of(const Uses& uses) {
 std::optional<Recalled> Index::recalled(const Hash128& key) {
   {
     const std::lock_guard lock(notes_mutex_);
-    if (const auto at = notes_.recalled.find(key); at != notes_.recalled.end()) return at->second;
+    if (const Recalled* recalled = noted(&Notes::recalled, key)) return *recalled;
   }
   std::optional<Recalled> found;
   file_->with([&](Database& database) {

@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/store/database.hpp"
@@ -133,6 +135,31 @@ TEST(Index, KnowsRecalledStepsAsLongAsResultsOfTheirTimeAreLeft) {
   index.settle_recalled(0);
   EXPECT_FALSE(index.recalled(with_results));
   EXPECT_FALSE(index.recalled(passing));
+}
+
+TEST(Index, KnowsWhatAnotherThreadIsWriting) {
+  const io::TestFolder folder;
+  Store store(filled(folder));
+  Index& index = *store.index();
+  std::atomic<bool> over = false;
+  {
+    const std::jthread writer([&] {
+      while (!over) index.flush();
+    });
+    for (std::uint64_t k = 0; k < 1000 && !over; ++k) {
+      const std::vector<Fact> facts = {{"gate", std::to_string(k)}};
+      index.set_facts("cascade", "coarse.matches", 0, facts);
+      index.set_recalled({2000, k}, {});
+      for (int again = 0; again < 3 && !over; ++again) {
+        const bool known = index.facts("cascade", "coarse.matches", 0) == facts &&
+                           index.recalled({2000, k}).has_value();
+        EXPECT_TRUE(known) << k;
+        over = !known;
+      }
+    }
+    over = true;
+  }
+  EXPECT_EQ(store.index_fault(), "");
 }
 
 TEST(Index, NoticesEachByteThatChangedAndIsMadeAnew) {

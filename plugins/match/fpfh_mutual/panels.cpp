@@ -73,7 +73,7 @@ PrincipalAxes::PrincipalAxes(std::span<const float> a, std::span<const float> b,
   mean = points.rowwise().mean();
   points.colwise() -= mean;
   const Eigen::MatrixXd spread = points * points.transpose();
-  const SymmetricEigen eigen = symmetric_eigen(spread);
+  const auto eigen = symmetric_eigen(spread);
   if (eigen.converged) axes = eigen.vectors.rowwise().reverse();
 }
 

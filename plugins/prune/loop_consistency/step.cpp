@@ -157,10 +157,10 @@ struct PruneLoopConsistency : WholeStep {
   /// which it knows nothing stay unknown.
   static Matrix6d widened(const Matrix6d& information, const Params& params) {
     if (information.isZero(0)) return Matrix6d::Zero();
-    const SymmetricEigen eigen = symmetric_eigen(information);
+    const auto eigen = symmetric_eigen(information);
     const Vector6d values = eigen.values.cwiseMax(1e-9 * std::max(eigen.values.maxCoeff(), 1e-300));
-    const Matrix6d vectors = eigen.vectors;
-    Matrix6d covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
+    Matrix6d covariance =
+        eigen.vectors * values.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
     covariance.diagonal().head<3>().array() += std::pow(params.translation_sigma, 2);
     covariance.diagonal().tail<3>().array() += std::pow(params.rotation_sigma, 2);
     return inverse_of_symmetric(covariance);

@@ -166,7 +166,7 @@ bool AbsolutePointCost::Evaluate(double const* const* poses, double* residuals,
 Eigen::MatrixXd information_root(const Eigen::MatrixXd& information) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(information);
   if (cholesky.info() == Eigen::Success) return cholesky.matrixU();
-  const SymmetricEigen eigen = symmetric_eigen(information);
+  const auto eigen = symmetric_eigen(information);
   const Eigen::VectorXd& values = eigen.values;
   if (!(values.minCoeff() >= -1e-9 * values.cwiseAbs().maxCoeff()))
     throw Error("an information matrix has the negative eigenvalue " +

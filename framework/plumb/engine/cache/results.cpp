@@ -10,6 +10,16 @@ std::size_t memory_of(const StoredResult& result) {
   return bytes;
 }
 
+bool NotedKeys::note(const Hash128& key) {
+  const std::lock_guard lock(mutex_);
+  return keys_.insert(key).second;
+}
+
+bool NotedKeys::has(const Hash128& key) const {
+  const std::lock_guard lock(mutex_);
+  return keys_.contains(key);
+}
+
 SharedResult Results::remembered(const Hash128& key) {
   const std::lock_guard lock(mutex_);
   const auto at = index_.find(key);
@@ -36,6 +46,7 @@ SharedResult Results::keep(const Hash128& key, StoredResult result, const std::s
   auto shared = std::make_shared<const StoredResult>(std::move(result));
   const bool taken = store_ && store_->put(key, *shared, step);
   insert(key, shared, taken, !(taken && frugal_));
+  said_.note(key);
   return shared;
 }
 
@@ -47,6 +58,7 @@ SharedResult Results::remember(const Hash128& key, StoredResult result) {
 
 void Results::made_elsewhere(const Hash128& key, const std::string& step) {
   store_->note(key, step, 0);
+  said_.note(key);
   const std::lock_guard lock(mutex_);
   facts_[key].in_store = true;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "plumb/store/store.hpp"
 
@@ -17,6 +18,17 @@ using SharedResult = std::shared_ptr<const StoredResult>;
 /// About how much memory a result holds [bytes], search trees that will be built on its clouds
 /// included.
 std::size_t memory_of(const StoredResult& result);
+
+/// Keys that were noted during a run. Safe from several threads.
+class NotedKeys {
+ public:
+  bool note(const Hash128& key);  ///< false when it was noted before
+  bool has(const Hash128& key) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::unordered_set<Hash128, Hash128Hash> keys_;
+};
 
 /// Keeps the most recently used results up to a number of bytes in memory. What the store took may
 /// leave memory and come back; the rest must be held by whoever needs it. Safe from several
@@ -44,6 +56,11 @@ class Results {
   /// Memory that a result takes, about: of one that was not seen in this run the size of its file.
   std::size_t size_of(const Hash128& key) const;
 
+  /// Results, and steps that were recalled, of which this run has said what they counted.
+  NotedKeys& said() { return said_; }
+  /// Where steps of this run found nothing to recall (engine/run/step_recall.cpp).
+  NotedKeys& unknown() { return unknown_; }
+
   Store* store() const { return store_; }
   bool fresh() const { return fresh_; }
 
@@ -67,6 +84,7 @@ class Results {
   std::unordered_map<Hash128, std::list<Entry>::iterator, Hash128Hash> index_;
   std::unordered_map<Hash128, Fact, Hash128Hash>
       facts_;  // of every result that this run made or found
+  NotedKeys said_, unknown_;
 };
 
 }  // namespace plumb

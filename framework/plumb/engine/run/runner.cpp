@@ -89,7 +89,6 @@ class Runner final : public Work {
     }
     const auto counted = books_.items_of(step.path);
     run->start();
-    if (runs_[index]) runs_[index]->remember();  // of the pass before, which nobody asks any more
     runs_[index] = run;
     if (options_.store) explain(index, *run, counted, turn);
     run->remember();
@@ -142,14 +141,11 @@ class Runner final : public Work {
 
   /// Lets go of those steps that an item of the pipeline was the last to ask.
   void release(std::size_t place) {
-    std::vector<std::shared_ptr<StepRun>> over;
-    {
-      const std::lock_guard lock(users_mutex_);
-      for (std::size_t s = 0; s < users_.size(); ++s)
-        if (std::erase(users_[s], place) > 0 && users_[s].empty())
-          over.push_back(std::move(runs_[s]));
-    }
-    for (const auto& run : over) run->remember();
+    std::vector<std::shared_ptr<StepRun>> over;  // declared before the lock: freed after it
+    const std::lock_guard lock(users_mutex_);
+    for (std::size_t s = 0; s < users_.size(); ++s)
+      if (std::erase(users_[s], place) > 0 && users_[s].empty())
+        over.push_back(std::move(runs_[s]));
   }
 
   void hold_bound() {
@@ -196,8 +192,10 @@ class Runner final : public Work {
     one.pass = repeat_of_[index] < 0 ? -1 : passes_[repeat_of_[index]];
     one.passes = lifetimes_[index].keeping == Keeping::passing;
     const auto now = books_.items_of(step.path);
-    one.made = now.first - counted.first;
-    one.reused = now.second - counted.second;
+    if (!one.passes) {  // else others may ask the pass before meanwhile
+      one.made = now.first - counted.first;
+      one.reused = now.second - counted.second;
+    }
     const Facts& facts = run.facts();
     const Facts before = known.facts(plan_.name, step.path, one.pass);
     one.why =

@@ -1,5 +1,6 @@
 #include "plumb/engine/run/schedule.hpp"
 
+#include "plumb/data/error.hpp"
 #include "plumb/engine/run/parallel.hpp"
 
 namespace plumb {
@@ -18,6 +19,10 @@ void Schedule::run(bool together) {
   else
     for (std::size_t due = first; due > 0; --due) due += next();
   if (failure_) std::rethrow_exception(failure_);
+  if (pipeline_.left > 0)
+    throw Error(
+        "a step left calls out although none has failed, and its results are not whole; this is a "
+        "fault of Plumb: report it with the pipeline, and run again");
 }
 
 /// Of the pipeline: none. Of a body: that of the repeat, and the pass.

@@ -43,7 +43,8 @@ class Schedule {
   Schedule(const Plan& plan, Work& work);
 
   /// Unless `together`, one step at a time. When something fails nothing more begins, and what was
-  /// thrown at the first turn, of all that was thrown, is thrown again.
+  /// thrown at the first turn, of all that was thrown, is thrown again. Throws Error when a step
+  /// left calls out and none had failed.
   void run(bool together);
   /// Whether something has failed, for those that run on.
   const std::atomic<bool>& stopped() const { return stopped_; }

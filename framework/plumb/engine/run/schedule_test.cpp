@@ -30,6 +30,7 @@ class Noted final : public Work {
     const std::lock_guard lock(mutex_);
     turns.push_back(turn);
     if (failing.contains(step)) throw Error("step " + std::to_string(step));
+    if (leaving.contains(step)) throw LeftOut();
   }
   void begin_repeat(int repeat) override { note("repeat " + std::to_string(repeat)); }
   void begin_pass(int repeat, int pass) override {
@@ -43,7 +44,7 @@ class Noted final : public Work {
   void item_done(std::size_t place) override { note("done " + std::to_string(place)); }
 
   std::map<int, int> passes;  ///< by repeat
-  std::set<int> failing;
+  std::set<int> failing, leaving;
   std::vector<std::string> told;
   std::vector<Turn> turns, ends;
 
@@ -99,6 +100,17 @@ TEST_F(Nested, AfterAFailureNothingBegins) {
   EXPECT_EQ(io::refusal([&] { Schedule(drawn.plan, noted).run(false); }), "step 2");
   EXPECT_EQ(noted.told.back(), "step 2");
   EXPECT_EQ(noted.turns.size(), 3u);
+}
+
+TEST_F(Nested, CallsThatAreLeftOutForNoReasonAreAFailureToo) {
+  for (const int step : {0, 2, 3}) {
+    noted.leaving = {step};
+    EXPECT_THAT(io::refusal([&] { Schedule(drawn.plan, noted).run(false); }),
+                testing::HasSubstr("left calls out"));
+    EXPECT_THAT(
+        io::refusal([&] { with_threads(2, [&] { Schedule(drawn.plan, noted).run(true); }); }),
+        testing::HasSubstr("left calls out"));
+  }
 }
 
 TEST_F(Nested, ABodyOfNothingHasItsPassesToo) {

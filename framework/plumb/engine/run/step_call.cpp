@@ -207,16 +207,8 @@ void StepRun::check_outputs(const std::vector<PortOutput>& outputs, std::size_t 
   }
 }
 
-std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
-  std::vector<PortOutput> outputs(plan_.description->outputs.size());
-  // Outside the try: what an earlier step says of itself needs no second name.
-  const auto inputs = gather(k);
-  const bool passing = itemwise() && keeping_ == Keeping::passing,
-             first = passing && first_asked(0, k);
-  // In a worker nothing is booked but what is warned: counts go home with the reply.
-  ItemContext context(
-      state_.books, plan_.path, [&] { return seed_of(inputs); },
-      !state_.passed && (!passing || first), said);
+void StepRun::run_call(const std::vector<PortInput>& inputs, std::vector<PortOutput>& outputs,
+                       Context& context, std::size_t k) {
   const RunningCall now(*this, k);
   try {
     step_.run(params_.get(), inputs, outputs, context);
@@ -229,7 +221,26 @@ std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said) {
         title(k) + ": threw something that is no std::exception; the step must throw plumb::Error");
   }
   check_outputs(outputs, k);
-  if (first) note(*said);
+}
+
+/// With `again` the call was made before in this run or an earlier one, and its counts are said.
+std::vector<PortOutput> StepRun::call(std::size_t k, StoredResult* said, bool again) {
+  std::vector<PortOutput> outputs(plan_.description->outputs.size());
+  // What an earlier step says of itself needs no second name.
+  const auto inputs = gather(k);
+  const bool passing = itemwise() && keeping_ == Keeping::passing,
+             first = passing && first_asked(0, k);
+  // In a worker nothing is booked but what is warned: counts go home with the reply.
+  ItemContext context(
+      state_.books, plan_.path, [&] { return seed_of(inputs); },
+      !state_.passed && (passing ? first : !again), said);
+  try {
+    run_call(inputs, outputs, context, k);
+  } catch (...) {
+    if (first) note_first(*said);
+    throw;
+  }
+  if (first) note_first(*said);
   if (first && state_.passed) state_.passed(*this, 0, k, *said);
   return outputs;
 }

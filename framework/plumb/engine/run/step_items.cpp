@@ -147,10 +147,9 @@ void StepRun::reuse(std::vector<std::size_t>& items) {
     if (stopped()) return;
     const Stopwatch watch(state_.books, plan_.path);
     const std::size_t k = items[n];
-    const bool here = store && state_.results.in_store(kept_keys_[k]);
     auto found = find(kept_keys_[k]);
     if (!found) return;
-    if (store && !here) {
+    if (store && state_.results.said().note(kept_keys_[k])) {
       say_again(*found);
       state_.books.from_earlier_run(plan_.path, 1);
     }
@@ -189,7 +188,7 @@ SharedResult StepRun::fetch(std::size_t k) {
     throw NestedError(title(k) + ": its result is gone from the cache; run again, it is made anew");
   const Stopwatch watch(state_.books, plan_.path);
   StoredResult said;
-  auto outputs = call(k, &said);
+  auto outputs = call(k, &said, true);
   SharedResult pin, made = kept(kept_keys_[k], result_of(outputs, std::move(said)), pin);
   Stopwatch::item(item_name(k), state_.pass, false);
   return made;

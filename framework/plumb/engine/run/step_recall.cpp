@@ -23,7 +23,7 @@ constexpr std::size_t most_bytes_of_numbers = std::size_t{256} << 10;
 /// of their keys.
 Hash128 StepRun::find_recall_key() const {
   Hasher hasher;
-  hasher.text("recall");
+  hasher.text("recall 2");  // 1: kept and passing in one row
   hasher.bytes(&base_key_, sizeof base_key_);
   hasher.bytes(&files_key_, sizeof files_key_);
   const auto add = [&](const Hash128& key) { hasher.bytes(&key, sizeof key); };
@@ -44,34 +44,47 @@ Hash128 StepRun::find_recall_key() const {
   return hasher.hash();
 }
 
-/// Takes over what is remembered, if anything is. With workers only what they will find.
+/// Where the index has what is remembered. Of what is made when it is asked for, no results: it is
+/// another row than that of the same step where others keep its results.
+Hash128 StepRun::row_key() const {
+  return made_when_asked() ? joined_key(recall_key_, {0x61736b6564, 0}) : recall_key_;
+}
+
+/// What is made when it is asked for is not recalled from a step of the same run: whether all of
+/// that was asked for by now hangs on threads. What is kept says once, however many passes recall
+/// it.
 bool StepRun::recall() {
   Store* store = state_.results.store();
   if (!store || !store->index()) return false;
   recall_key_ = find_recall_key();
-  if (state_.results.fresh()) return false;
-  auto known = store->index()->recalled(recall_key_);
-  if (!known || !fits(*known)) return false;
+  const Hash128 row = row_key();
+  NotedKeys &unknown = state_.results.unknown(), &said = state_.results.said();
+  const bool says = made_when_asked() || said.note(joined_key(row, hash_of(plan_.path)));
+  if (!(made_when_asked() && unknown.has(row)) && take_recalled(says)) return true;
+  // Of kept ones the first: the others say nothing of what it made.
+  remembers_ = unknown.note(row) || made_when_asked();
+  return false;
+}
+
+/// Takes over what is remembered, if anything is. With workers only what they will find.
+bool StepRun::take_recalled(bool says) {
+  auto known = find_recalled();
+  if (!known) return false;
   const bool whole = !itemwise() && !lazy(), items = itemwise() && keeping_ != Keeping::passing;
-  const auto of_earlier_run = [&](const Hash128& key) { return !state_.results.in_store(key); };
-  std::size_t earlier = 0;
-  if (whole) earlier = of_earlier_run(known->whole) ? 1 : 0;
-  if (items)
-    earlier = static_cast<std::size_t>(std::ranges::count_if(known->items, of_earlier_run));
   if (state_.executor.elsewhere() && (whole || items) && !all_in_store(*known)) return false;
-  if (whole && !take_numbers(known->numbers)) return false;
-  StoredResult said;
-  for (const CountOf& count : known->counts) said.counts.emplace_back(count.what, count.n);
-  said.warnings = known->warnings;
+  if (whole && !take_numbers(known->numbers)) return numbers_.clear(), false;
   said_in_full_ = true;
   if (whole || items) {
-    store->hold(whole ? std::span<const Hash128>(&known->whole, 1) : known->items);
-    state_.books.step_begins(plan_.path, state_.pass, whole ? 1 : known->items.size());
-    state_.books.all_reused(plan_.path, state_.pass, whole ? 1 : known->items.size());
+    const auto keys = whole ? std::span<const Hash128>(&known->whole, 1) : known->items;
+    state_.results.store()->hold(keys);
+    std::size_t earlier = 0;
+    for (const Hash128& key : keys) earlier += state_.results.said().note(key) ? 1 : 0;
+    state_.books.step_begins(plan_.path, state_.pass, keys.size());
+    state_.books.all_reused(plan_.path, state_.pass, keys.size());
     state_.books.from_earlier_run(plan_.path, earlier);
     recalled_ = true;
   }
-  say_again(said);
+  if (says) say_recalled(*known);
   facts_ = std::move(known->facts);
   if (whole) whole_key_ = known->whole, whole_keys_ = std::move(known->values);
   if (items) {
@@ -81,6 +94,28 @@ bool StepRun::recall() {
   }
   if (whole || items) list_source_ = source_of_list();
   return true;
+}
+
+/// What is made when it is asked for counts the same as where it was kept.
+std::optional<Recalled> StepRun::find_recalled() const {
+  if (state_.results.fresh()) return std::nullopt;
+  Index& index = *state_.results.store()->index();
+  auto known = index.recalled(row_key());
+  if (!known && made_when_asked()) known = index.recalled(recall_key_);
+  if (known && !fits(*known)) known.reset();
+  return known;
+}
+
+/// Of a source its call has just said a part of that.
+void StepRun::say_recalled(const Recalled& known) {
+  StoredResult said;
+  for (const CountOf& count : known.counts) {
+    const auto at = counts_.find(count.what);
+    const std::uint64_t by_call = at == counts_.end() ? 0 : at->second;
+    said.counts.emplace_back(count.what, count.n - std::min(count.n, by_call));
+  }
+  said.warnings = known.warnings;
+  say_again(said);
 }
 
 /// Whether it can be what a step of this kind left.
@@ -142,11 +177,9 @@ Source StepRun::source_of_list() {
 /// Remembers what this step gave, for later runs. Of what is made whenever it is asked for only
 /// when all of it was: then what it counted is complete.
 void StepRun::remember() {
-  Store* store = state_.results.store();
-  if (!store || !store->index() || recalled_ || said_in_full_ || dropped_ || remembered_) return;
+  if (!remembers_ || dropped_) return;
   // What workers say of what passes through their calls does not come home in full.
-  if (made_when_asked() && (state_.executor.elsewhere() || !all_asked())) return;
-  remembered_ = true;
+  if (made_when_asked() && (state_.executor.elsewhere() || noted_ < values_when_asked())) return;
   Recalled known;
   known.items = kept_keys_;
   if (!itemwise() && !lazy()) {
@@ -158,7 +191,7 @@ void StepRun::remember() {
   for (const auto& [what, n] : counts_) known.counts.push_back({what, n});
   known.warnings.assign(warnings_.begin(), warnings_.end());
   known.facts = facts_;
-  store->index()->set_recalled(recall_key_, std::move(known));
+  state_.results.store()->index()->set_recalled(row_key(), std::move(known));
 }
 
 std::vector<std::string> StepRun::bytes_of_numbers() {
@@ -174,13 +207,13 @@ std::vector<std::string> StepRun::bytes_of_numbers() {
   return all;
 }
 
-bool StepRun::all_asked() const {
-  for (std::size_t o = 0; o < asked_.size(); ++o) {
-    const std::size_t n = itemwise() ? items_ : whole_keys_[o].size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (!asked_[o][k]) return false;
-  }
-  return !asked_.empty();
+/// So many values there are that are made when they are asked for.
+std::size_t StepRun::values_when_asked() const {
+  if (itemwise()) return items_;
+  std::size_t n = 0;
+  for (std::size_t o = 0; o < whole_keys_.size(); ++o)
+    if (plan_.description->outputs[o].emission == Emission::lazy) n += whole_keys_[o].size();
+  return n;
 }
 
 /// Keeps what a call said, so that a later run can say it too.
@@ -188,6 +221,12 @@ void StepRun::note(const StoredResult& said) {
   const std::lock_guard lock(said_mutex_);
   for (const auto& [what, n] : said.counts) counts_[what] += n;
   warnings_.insert(said.warnings.begin(), said.warnings.end());
+}
+
+/// As note, of what is made when it is asked for, once each; also when it failed.
+void StepRun::note_first(const StoredResult& said) {
+  note(said);
+  if (++noted_ == values_when_asked()) remember();
 }
 
 }  // namespace plumb

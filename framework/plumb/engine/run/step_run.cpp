@@ -195,17 +195,19 @@ AnyValue StepRun::value(int output, std::size_t k) {
   ItemContext context(
       state_.books, plan_.path, [&] { return whole_keys_[output][k].low; }, first && !state_.passed,
       &said);
+  AnyValue value;
   try {
-    AnyValue value = lazy_[output].open(k, context);
+    value = lazy_[output].open(k, context);
     require_sound(value, static_cast<std::size_t>(output));
-    passed_bytes_ = std::max(passed_bytes_.load(), value.type->code->bytes(value.value.get()));
-    if (first) note(said);
-    if (first && state_.passed) state_.passed(*this, output, k, said);
-    return value;
   } catch (const std::exception& e) {
+    if (first) note_first(said);
     throw NestedError("step '" + plan_.path + "' (" + plan_.description->name +
                       "): " + sentence_of(e));
   }
+  passed_bytes_ = std::max(passed_bytes_.load(), value.type->code->bytes(value.value.get()));
+  if (first) note_first(said);
+  if (first && state_.passed) state_.passed(*this, output, k, said);
+  return value;
 }
 
 Hash128 StepRun::key(int output, std::size_t k) {

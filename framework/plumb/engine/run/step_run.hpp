@@ -64,8 +64,8 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   /// Makes everything that is to be kept, the whole step or all its items, unless an earlier run
   /// left all of it. Throws LeftOut (schedule.hpp) when another step failed meanwhile.
   void start();
-  /// Remembers what was made for later runs. Asked after start(), with the facts; of what is made
-  /// when it is asked for, when nobody will ask any more.
+  /// Remembers what was made for later runs. Asked after start(), with the facts; what is made when
+  /// it is asked for is remembered then if nobody need ask, else when all of it was asked for.
   void remember();
   /// Makes one call and keeps what it gave. Throws NestedError when the call fails.
   void make_here(std::size_t k);
@@ -139,20 +139,27 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::pair<std::size_t, std::size_t> parts_of(std::size_t k, const Source& parts);
   ItemPlace place_of(std::size_t k);
   SeenPart part_of(std::size_t port, std::size_t k);
-  std::vector<PortOutput> call(std::size_t k, StoredResult* said);
+  std::vector<PortOutput> call(std::size_t k, StoredResult* said, bool again = false);
+  void run_call(const std::vector<PortInput>& inputs, std::vector<PortOutput>& outputs,
+                Context& context, std::size_t k);
   void require_sound(const AnyValue& value, std::size_t output) const;
   void check_outputs(const std::vector<PortOutput>& outputs, std::size_t k);
   // step_recall.cpp: what an earlier run left
   Hash128 find_recall_key() const;
+  Hash128 row_key() const;
   bool recall();
+  bool take_recalled(bool says);
+  std::optional<Recalled> find_recalled() const;
+  void say_recalled(const Recalled& known);
   bool fits(const Recalled& known) const;
   bool all_in_store(const Recalled& known);
   bool take_numbers(const std::vector<std::string>& bytes);
   Source source_of_list();
   std::vector<std::string> bytes_of_numbers();
   bool made_when_asked() const { return lazy() || keeping_ == Keeping::passing; }
-  bool all_asked() const;
+  std::size_t values_when_asked() const;
   void note(const StoredResult& said);
+  void note_first(const StoredResult& said);
   /// Of what passes through and was recalled, finds the items when they are first asked for.
   void ready() {
     if (keeping_ == Keeping::passing) std::call_once(joined_, [this] { find_inputs(); });
@@ -214,7 +221,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   bool recalled_ = false;      ///< all its results are known from an earlier run, by their keys
   bool said_in_full_ = false;  ///< what it counts was said already
   bool dropped_ = false;       ///< an item failed and has an empty value
-  bool remembered_ = false;
+  bool remembers_ = false;     ///< what it makes is to be remembered for later runs
   Failures failures_{plan_.on_error == OnError::stop || !itemwise()};
   std::vector<AnyValue> numbers_;  ///< by output: recalled values with numbers
   Facts facts_;
@@ -224,6 +231,7 @@ class StepRun : public std::enable_shared_from_this<StepRun> {
   std::set<std::string> warnings_;
   std::vector<std::unique_ptr<std::atomic<bool>[]>>
       asked_;  ///< of what is made anew whenever asked for: by output, then item
+  std::atomic<std::size_t> noted_ = 0;         ///< of these so many whose counts are in counts_
   std::atomic<std::size_t> passed_bytes_ = 0;  ///< the biggest value that passed so far
 };
 

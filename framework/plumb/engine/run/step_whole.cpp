@@ -45,10 +45,9 @@ bool StepRun::find_whole() {
   for (const auto& output : plan_.description->outputs) single &= output.emission == Emission::one;
   const bool store = state_.results.store() != nullptr;
   if (lazy() || !(store || (keeping_ == Keeping::remembered && single))) return false;
-  const bool here = store && state_.results.in_store(whole_key_);
   auto found = find(whole_key_);
   if (!found) return false;
-  if (store && !here) {
+  if (store && state_.results.said().note(whole_key_)) {
     say_again(*found);
     state_.books.from_earlier_run(plan_.path, 1);
   }
@@ -136,7 +135,7 @@ SharedResult StepRun::whole() {
   if (inputs_.empty() && !plan_.description->inputs.empty())
     throw NestedError(title(0) + ": its result is gone from the cache; run again, it is made anew");
   StoredResult said;
-  auto outputs = call(0, &said);
+  auto outputs = call(0, &said, true);
   SharedResult pin;
   return kept(whole_key_, result_of(outputs, std::move(said)), pin);
 }

@@ -54,10 +54,9 @@ Matrix13d factor_of(const Matrix13d& moments) {
   const Vector13d scale = moments.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Vector13d back = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   const Matrix13d scaled = back.asDiagonal() * moments * back.asDiagonal();
-  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const auto eigen = symmetric_eigen(scaled);
   const Vector13d root = eigen.values.cwiseMax(0.0).cwiseSqrt();
-  const Matrix13d vectors = eigen.vectors;
-  return root.asDiagonal() * vectors.transpose() * scale.asDiagonal();
+  return root.asDiagonal() * eigen.vectors.transpose() * scale.asDiagonal();
 }
 
 Eigen::Matrix<double, 13, 6> PairForm::jacobian(const Eigen::Matrix3d& r) const {

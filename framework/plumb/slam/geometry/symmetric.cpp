@@ -5,9 +5,12 @@
 
 namespace plumb {
 
-SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& m) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
-  return {eigen.eigenvalues(), eigen.eigenvectors(), eigen.info() == Eigen::Success};
+bool symmetric_eigen(int n, const double* m, double* values, double* vectors) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::Map<const Eigen::MatrixXd>(m, n, n));
+  Eigen::Map<Eigen::VectorXd>(values, n) = eigen.eigenvalues();
+  Eigen::Map<Eigen::MatrixXd>(vectors, n, n) = eigen.eigenvectors();
+  return eigen.info() == Eigen::Success;
 }
 
 Vector6d solve_symmetric(const Matrix6d& m, const Vector6d& b) { return m.ldlt().solve(b); }

@@ -24,7 +24,7 @@ Matrix6d known() {
 }
 
 TEST(SymmetricEigen, FindsTheEigenvaluesThatAMatrixWasMadeOf) {
-  const SymmetricEigen eigen = symmetric_eigen(known());
+  const auto eigen = symmetric_eigen(known());
   ASSERT_TRUE(eigen.converged);
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(eigen.values(k), k + 1, 1e-12);
   const Matrix6d back = eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose();

@@ -228,7 +228,7 @@ void SlurmExecutor::submit_and_wait(StepRun& run, Prepared work, const Done& don
     }
     const std::size_t settled =
         take_until_over(queue_, job, options_.profile.poll, run, folder, calls);
-    if (run.stopped()) return;  // and the job is cancelled
+    if (run.stopped() && !calls.all_settled()) return;  // and the job is cancelled
     idle = settled > 0 || calls.begun_in_all() > begun ? 0 : idle + 1;
     begun = calls.begun_in_all();
     job.clear();
