@@ -46,7 +46,7 @@ std::string trial(const std::string& file) {
 }
 
 /// A line for each reason.
-void print_left_out(const LeftOut& steps) {
+void print_left_out(const StepsLeftOut& steps) {
   std::map<std::string, std::vector<std::string>> by_reason;
   for (const auto& [step, why] : steps) by_reason[why].push_back(step);
   for (const auto& [why, names] : by_reason)

@@ -12,9 +12,9 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 20;  // [byte]
 
 }  // namespace
 
-LeftOut read_left_out(std::string_view text, const fs::path& file) {
+StepsLeftOut read_left_out(std::string_view text, const fs::path& file) {
   constexpr std::string_view between = ": ";
-  LeftOut steps;
+  StepsLeftOut steps;
   io::Lines lines(text);
   for (std::string_view line; lines.next(line);) {
     const std::size_t at = line.find(between);
@@ -26,7 +26,7 @@ LeftOut read_left_out(std::string_view text, const fs::path& file) {
   return steps;
 }
 
-LeftOut left_out_beside(const fs::path& modules) {
+StepsLeftOut left_out_beside(const fs::path& modules) {
   const fs::path file = modules / "left_out.txt";
   if (std::error_code error; !fs::exists(file, error)) return {};
   if (const std::string fault = fault_of_file(file); !fault.empty())

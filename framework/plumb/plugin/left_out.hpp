@@ -11,13 +11,13 @@
 namespace plumb {
 
 /// By the step's name: why, and the cure ("PCL was not found; install libpcl-dev and build again").
-using LeftOut = std::map<std::string, std::string, std::less<>>;
+using StepsLeftOut = std::map<std::string, std::string, std::less<>>;
 
 /// Of lines "STEP: WHY". Throws Error, which names `file` and the line, at any other.
-LeftOut read_left_out(std::string_view text, const std::filesystem::path& file);
+StepsLeftOut read_left_out(std::string_view text, const std::filesystem::path& file);
 
 /// Beside the modules of a folder; empty where no build has written any. Throws Error when the file
 /// may not be read (trusted_file.hpp) or is not what a build writes.
-LeftOut left_out_beside(const std::filesystem::path& modules);
+StepsLeftOut left_out_beside(const std::filesystem::path& modules);
 
 }  // namespace plumb

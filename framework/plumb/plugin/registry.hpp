@@ -42,7 +42,7 @@ class Registry {
   const Licence& licence_of(const StepDescription& step) const;
   const std::vector<Refusal>& refused() const { return refused_; }
   /// What the builds of these folders left out and no module of them offers.
-  const LeftOut& left_out() const { return left_out_; }
+  const StepsLeftOut& left_out() const { return left_out_; }
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
   /// The step itself; loads its module. Throws Error when it cannot be loaded, has another ABI
@@ -58,7 +58,7 @@ class Registry {
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, Licence> licences_;  // by module
   std::vector<Refusal> refused_;
-  LeftOut left_out_;
+  StepsLeftOut left_out_;
   std::vector<std::filesystem::path> folders_;
 };
 
