@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Summed from the left, so that paths of round lengths come out the same in every program.
 double length(const Eigen::Vector3d& v) {
@@ -47,7 +47,7 @@ PosePairs pair_by_stamp(const Trajectory& estimate, const Trajectory& truth, dou
 }
 
 AbsoluteError absolute_error(const PosePairs& pairs) {
-  if (pairs.size() == 0) return {nan, nan};
+  if (pairs.size() == 0) return {unknown, unknown};
   const auto estimate = positions(pairs.estimate), truth = positions(pairs.truth);
   const Pose T_truth_estimate = align(estimate, truth);
   double sum = 0, most = 0;
@@ -72,7 +72,7 @@ RelativeError relative_error(const PosePairs& pairs, double over) {
     sum.translation += error.translation.norm();
     sum.rotation += angle(error);
   }
-  if (count == 0) return {nan, nan};
+  if (count == 0) return {unknown, unknown};
   const double n = static_cast<double>(count);
   return {sum.translation / n, sum.rotation / n};
 }
