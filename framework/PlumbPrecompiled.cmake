@@ -5,6 +5,14 @@ set(PLUMB_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <filesystem> <fstrea
 set(PLUMB_PRECOMPILED_SLAM <Eigen/Core> <Eigen/Geometry>)
 set(PLUMB_PRECOMPILED_SDK <plumb/plugin/module.hpp> <plumb/slam/step.hpp>)  # by no path of this tree, so that ccache knows it in another
 
+# plumb_unity(TARGET): its files may be compiled several at a time (PLUMB_UNITY). Names in unnamed namespaces must differ within a target.
+function(plumb_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLUMB_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  if(PLUMB_UNITY)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # takes an included .cpp for a header
+  endif()
+endfunction()
+
 # plumb_precompiled_by(OWNER LIBRARIES HEADER...): a target from which others that link the LIBRARIES, a list, take its precompiled headers.
 function(plumb_precompiled_by owner libraries)
   set(nothing ${CMAKE_BINARY_DIR}/${owner}.cpp)

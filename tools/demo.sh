@@ -4,7 +4,10 @@
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 install_packages "${build_packages[@]}"
-build_all -DPLUMB_TESTS=OFF -DPLUMB_BENCHMARKS=OFF
+# A folder that was built otherwise is carried on with.
+unity=()
+if [ ! -f "$build/CMakeCache.txt" ]; then unity=(-DPLUMB_UNITY=ON); fi
+build_all "${unity[@]}" -DPLUMB_TESTS=OFF -DPLUMB_BENCHMARKS=OFF
 plumb="$build/bin/plumb"
 folder="$(realpath -m "${1:-$build/demo}")"
 mkdir -p "$folder"

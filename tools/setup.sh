@@ -29,7 +29,7 @@ install_packages() {
 # build_all CMAKE-OPTION...: configures and builds; what the compiler says is kept in build.log and shown when it fails.
 build_all() {
   mkdir -p "$build"
-  echo "building in $build (a first build takes about nine minutes on two cores, with tests twenty-two)"
+  echo "building in $build (on two cores a first build takes about six minutes, with the tests twenty-two)"
   if ! { cmake -S "$root" -B "$build" -G Ninja "$@" && ninja -C "$build" "${build_targets[@]}"; } >"$build/build.log" 2>&1; then
     tail -n 60 "$build/build.log"
     echo "the build failed; all of it is in $build/build.log" >&2

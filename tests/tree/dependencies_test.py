@@ -41,7 +41,7 @@ def main():
         return 77
     done = subprocess.run(["ninja", "-C", sys.argv[1], "-t", "deps"], capture_output=True, text=True)
     faults, objects = faults_in(done.stdout)
-    if objects < 100:
+    if objects < 60:  # with PLUMB_UNITY twelve files of the core are one
         print(f"only {objects} objects of the core are known to ninja in {sys.argv[1]}: build all of it first\n{done.stderr}")
         return 1
     for compiled, header in faults:

@@ -44,12 +44,12 @@ class Builder {
 
   /// A free rectangle of the given half lengths beside node k, its near edge `lateral` from the
   /// node's lane or as little more as keeps `clearance` from every lane; taken at once.
-  std::optional<Rectangle> place(std::size_t k, float side, const Vector2f& half, float lateral,
+  std::optional<Footprint> place(std::size_t k, float side, const Vector2f& half, float lateral,
                                  float clearance, float tolerance = 0) {
     const Street::Node& node = street_.nodes()[k];
     const Vector2f out = side * Vector2f(-node.along.y(), node.along.x());
     for (float shift = 0; shift <= 5; shift += 0.5f) {
-      const Rectangle r{node.at + (lateral + shift + half.y()) * out, node.along, half};
+      const Footprint r{node.at + (lateral + shift + half.y()) * out, node.along, half};
       if (!street_.clear(r, clearance)) continue;
       if (!plots_.free(r, tolerance)) return std::nullopt;
       plots_.take(r);
@@ -85,10 +85,10 @@ class Builder {
     return static_cast<double>(unit(mix(of, k / 60, side > 0 ? 1 : 2) ^ random_seed_));
   }
 
-  float ground_at(const Rectangle& r) const { return ground_.height(r.centre.x(), r.centre.y()); }
+  float ground_at(const Footprint& r) const { return ground_.height(r.centre.x(), r.centre.y()); }
 
   /// A box on the rectangle from height z0 to z1 [m].
-  Primitive& box(const Rectangle& r, float z0, float z1, float reflectance) {
+  Primitive& box(const Footprint& r, float z0, float z1, float reflectance) {
     Primitive p;
     p.reflectance = reflectance;
     p.cosine = r.along.x(), p.sine = r.along.y();
@@ -105,7 +105,7 @@ class Builder {
 
   void front_row(float side);
   void back_row(float side);
-  void house(const Rectangle& plot, float side, float height);
+  void house(const Footprint& plot, float side, float height);
   void fences(float side);
   void cars(float side);
   void trees(float side);
@@ -150,7 +150,7 @@ void Builder::back_row(float side) {
   });
 }
 
-void Builder::house(const Rectangle& plot, float side, float height) {
+void Builder::house(const Footprint& plot, float side, float height) {
   const float base = ground_at(plot);
   const float wall = uniform(0.25, 0.7);
   Facade f;
@@ -169,7 +169,7 @@ void Builder::house(const Rectangle& plot, float side, float height) {
   const Vector2f to_street = -side * Vector2f(-plot.along.y(), plot.along.x());
   const Vector2f front = plot.centre + plot.half.y() * to_street;
   const auto part = [&](float u, float width, float reach, float z0, float z1, float reflectance) {
-    const Rectangle r{front + u * plot.along + 0.5f * reach * to_street,
+    const Footprint r{front + u * plot.along + 0.5f * reach * to_street,
                       plot.along,
                       {0.5f * width, 0.5f * reach + 0.05f}};
     box(r, base + z0, base + z1, reflectance);
@@ -226,14 +226,14 @@ void Builder::cars(float side) {
     } else {
       const float bonnet = base + uniform(0.8, 0.95);
       box(*r, sill, bonnet, paint);
-      Rectangle cabin = *r;
+      Footprint cabin = *r;
       cabin.half.x() *= uniform(0.45, 0.65);
       cabin.half.y() *= 0.85f;
       cabin.centre += (chance(0.5) ? 1.0f : -1.0f) * uniform(0.05, 0.5) * r->along;
       box(cabin, bonnet, bonnet + uniform(0.5, 0.7), 0.2f);
     }
     for (const float end : {-0.62f, 0.62f}) {  // axles with wheels, seen as one dark block
-      Rectangle wheel{
+      Footprint wheel{
           r->centre + end * r->half.x() * r->along, r->along, {0.3f, r->half.y() * 0.96f}};
       box(wheel, base - 0.1f, base + 0.45f, 0.08f);
     }
@@ -314,9 +314,9 @@ World build_city(const std::vector<Eigen::Vector3d>& path, double sensor_height,
   lane.reserve(street.nodes().size());
   for (const auto& node : street.nodes()) lane.emplace_back(node.at.x(), node.at.y(), node.z);
 
-  const auto half_width = static_cast<float>(0.5 * street_width);
-  Ground ground = ground_under(lane, half_width - 2, 70, seed, alike > 0 ? 0.0f : 1.0f);
-  Builder builder(street, ground, half_width, static_cast<std::size_t>(alike), seed);
+  const auto half_street = static_cast<float>(0.5 * street_width);
+  Ground ground = ground_under(lane, half_street - 2, 70, seed, alike > 0 ? 0.0f : 1.0f);
+  Builder builder(street, ground, half_street, static_cast<std::size_t>(alike), seed);
   builder.build();
   return {origin, std::move(ground), std::move(builder.primitives), std::move(builder.facades)};
 }

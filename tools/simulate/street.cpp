@@ -47,7 +47,7 @@ std::vector<Vector3f> every_metre(const std::vector<Vector3f>& path) {
 }
 
 /// Whether two rectangles overlap by more than `tolerance` along each axis of `a`.
-bool meet_along(const Rectangle& a, const Rectangle& b, float tolerance) {
+bool meet_along(const Footprint& a, const Footprint& b, float tolerance) {
   const Vector2f centre = a.local(b.centre).cwiseAbs();
   const float cosine = std::abs(a.along.dot(b.along));
   const float sine = std::abs(a.along.x() * b.along.y() - a.along.y() * b.along.x());
@@ -76,19 +76,19 @@ Street::Street(const std::vector<Vector3f>& path) {
   }
 }
 
-bool Street::clear(const Rectangle& rectangle, float clearance) const {
+bool Street::clear(const Footprint& rectangle, float clearance) const {
   return !around(cells_, rectangle.centre, rectangle.half.norm() + clearance,
                  [&](std::uint32_t k) { return rectangle.distance(nodes_[k].at) < clearance; });
 }
 
-bool Plots::free(const Rectangle& rectangle, float tolerance) const {
+bool Plots::free(const Footprint& rectangle, float tolerance) const {
   return !around(cells_, rectangle.centre, rectangle.half.norm(), [&](std::uint32_t k) {
     return meet_along(rectangle, taken_[k], tolerance) &&
            meet_along(taken_[k], rectangle, tolerance);
   });
 }
 
-void Plots::take(const Rectangle& rectangle) {
+void Plots::take(const Footprint& rectangle) {
   const auto index = static_cast<std::uint32_t>(taken_.size());
   taken_.push_back(rectangle);
   const float reach = rectangle.half.norm();

@@ -9,8 +9,8 @@
 
 namespace plumb::simulate {
 
-/// A rectangle on the map [m].
-struct Rectangle {
+/// A rectangle on the map [m], in any direction.
+struct Footprint {
   Eigen::Vector2f centre;
   Eigen::Vector2f along;  ///< unit vector of its length
   Eigen::Vector2f half;   ///< half length, half width
@@ -40,7 +40,7 @@ class Street {
   const std::vector<Node>& nodes() const { return nodes_; }
 
   /// Whether every node keeps `clearance` [m] from the rectangle.
-  bool clear(const Rectangle& rectangle, float clearance) const;
+  bool clear(const Footprint& rectangle, float clearance) const;
 
  private:
   std::vector<Node> nodes_;
@@ -51,11 +51,11 @@ class Street {
 class Plots {
  public:
   /// Whether `rectangle` meets none of the plots by more than `tolerance` [m].
-  bool free(const Rectangle& rectangle, float tolerance) const;
-  void take(const Rectangle& rectangle);
+  bool free(const Footprint& rectangle, float tolerance) const;
+  void take(const Footprint& rectangle);
 
  private:
-  std::vector<Rectangle> taken_;
+  std::vector<Footprint> taken_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What a file is read as.
-struct Reading {
+struct NamesRead {
   std::vector<Renaming> renamings;     ///< in the file itself
   std::vector<std::string> pipelines;  ///< that result, without comments
 };
@@ -42,9 +42,9 @@ std::vector<fs::path> also_served(const fs::path& file, const Overlay::Texts& te
   return served;
 }
 
-Reading reading_of(const fs::path& file, const Overlay::Texts& texts, const Registry& registry,
-                   const FormerNames& former) {
-  Reading reading;
+NamesRead reading_of(const fs::path& file, const Overlay::Texts& texts, const Registry& registry,
+                     const FormerNames& former) {
+  NamesRead reading;
   Overlay overlay;
   overlay.open = true;
   overlay.texts = texts;
@@ -69,7 +69,7 @@ Reading reading_of(const fs::path& file, const Overlay::Texts& texts, const Regi
 
 Migrated migrated(const fs::path& given, const Registry& registry, const FormerNames& former) {
   const fs::path file = given.lexically_normal();
-  const Reading before = reading_of(file, {}, registry, former);
+  const NamesRead before = reading_of(file, {}, registry, former);
   Migrated result{std::string(io::FileBytes(file).view()), before.renamings};
   if (result.done.empty()) return result;
   Diagnostics diagnostics;
@@ -82,7 +82,7 @@ Migrated migrated(const fs::path& given, const Registry& registry, const FormerN
                     "Write the new names yourself; 'plumb check' warns of each old one.");
     diagnostics.raise();
   };
-  Reading after;
+  NamesRead after;
   try {
     after = reading_of(file, {{file, result.text}}, registry, former);
   } catch (const PipelineError& error) {

@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Summed from the left, so that paths of round lengths come out the same in every program.
 double length(const Eigen::Vector3d& v) {
@@ -56,7 +56,7 @@ std::vector<double> squared_errors(const PosePairs& pairs) {
 }
 
 AbsoluteError absolute_error(const PosePairs& pairs) {
-  if (pairs.size() == 0) return {nan, nan};
+  if (pairs.size() == 0) return {unknown, unknown};
   double sum = 0, most = 0;
   for (const double squared : squared_errors(pairs)) {
     sum += squared;
@@ -81,7 +81,7 @@ std::vector<RelativeError> relative_errors(const PosePairs& pairs, double over) 
 
 RelativeError relative_error(const PosePairs& pairs, double over) {
   const auto errors = relative_errors(pairs, over);
-  if (errors.empty()) return {nan, nan};
+  if (errors.empty()) return {unknown, unknown};
   RelativeError sum{0, 0};
   for (const RelativeError& error : errors) {
     sum.translation += error.translation;

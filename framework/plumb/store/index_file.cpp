@@ -14,7 +14,7 @@ namespace plumb {
 namespace fs = std::filesystem;
 namespace {
 
-bool locked(int lock, int how) {
+bool lock_taken(int lock, int how) {
   int done;
   do done = flock(lock, how);
   while (done != 0 && errno == EINTR);
@@ -72,15 +72,15 @@ void IndexFile::open() {
   if (lock_ < 0) return refuse();
   try {
     for (bool open = false; !open;) {
-      if (locked(lock_, LOCK_EX | LOCK_NB)) {
+      if (lock_taken(lock_, LOCK_EX | LOCK_NB)) {
         mend();
-        open = locked(lock_, LOCK_SH);
+        open = lock_taken(lock_, LOCK_SH);
         if (!open) return refuse();
       } else {
-        if (errno != EWOULDBLOCK || !locked(lock_, LOCK_SH))
+        if (errno != EWOULDBLOCK || !lock_taken(lock_, LOCK_SH))
           return refuse();  // waits for one that opens or closes it
         open = !is_there(sum_of(store_));
-        if (!open) locked(lock_, LOCK_UN);  // that one closed it: we are the first
+        if (!open) lock_taken(lock_, LOCK_UN);  // that one closed it: we are the first
       }
     }
     connect();
@@ -141,11 +141,11 @@ void IndexFile::rebuild(const std::string& why) {
 void IndexFile::mend_while_open(const std::string& why) {
   database_.reset();
   if (!rebuilt().empty()) return fail("it was damaged again, " + why);
-  if (!locked(lock_, LOCK_EX | LOCK_NB))
+  if (!lock_taken(lock_, LOCK_EX | LOCK_NB))
     return fail("it is damaged, " + why + "; it is made anew when no other run uses the cache");
   try {
     rebuild(why);
-    if (!locked(lock_, LOCK_SH)) return fail(std::strerror(errno));
+    if (!lock_taken(lock_, LOCK_SH)) return fail(std::strerror(errno));
     connect();
   } catch (const DatabaseError& e) {
     fail(e.what());
@@ -155,7 +155,7 @@ void IndexFile::mend_while_open(const std::string& why) {
 void IndexFile::close() {
   if (lock_ < 0) return;
   database_.reset();
-  if (fault().empty() && locked(lock_, LOCK_EX | LOCK_NB) && !is_there(sum_of(store_))) seal();
+  if (fault().empty() && lock_taken(lock_, LOCK_EX | LOCK_NB) && !is_there(sum_of(store_))) seal();
   ::close(lock_);
   lock_ = -1;
 }
@@ -178,7 +178,7 @@ void IndexFile::seal() {
 /// No more use of it; others may go on.
 void IndexFile::fail(const std::string& why) {
   database_.reset();
-  if (lock_ >= 0) locked(lock_, LOCK_UN);
+  if (lock_ >= 0) lock_taken(lock_, LOCK_UN);
   const std::lock_guard lock(said_mutex_);
   if (fault_.empty()) fault_ = why;
 }

@@ -14,7 +14,7 @@
 namespace plumb::source_carmen {
 namespace {
 
-enum class Odometry { use, ignore };
+enum class OdometryUse { use, ignore };
 
 struct Carmen : WholeStep {
   struct In {};
@@ -24,7 +24,7 @@ struct Carmen : WholeStep {
   };
   struct Params {
     std::filesystem::path path;
-    Odometry odometry = Odometry::use;
+    OdometryUse odometry = OdometryUse::use;
     double min_range = 0.05;
     std::optional<double> max_range;
     std::optional<double> field_of_view;
@@ -46,8 +46,8 @@ struct Carmen : WholeStep {
             "log with FLASER, ROBOTLASER1 or RAWLASER1 lines (.clf, .log); gzip and bzip2 are "
             "decompressed");
     is.choice("odometry", &Params::odometry,
-              {{"use", Odometry::use, "poses from wheel odometry"},
-               {"ignore", Odometry::ignore, "every pose is the identity; stamps are kept"}})
+              {{"use", OdometryUse::use, "poses from wheel odometry"},
+               {"ignore", OdometryUse::ignore, "every pose is the identity; stamps are kept"}})
         .doc("what the poses of the trajectory are");
     is.param("min_range", &Params::min_range)
         .unit("m")
@@ -106,7 +106,7 @@ struct Carmen : WholeStep {
     count(context, "beams nearer than min_range dropped", sum.too_near);
     count(context, "beams with a non-finite range dropped", sum.no_number);
 
-    out.trajectory = trajectory_of(*log, params.odometry == Odometry::use);
+    out.trajectory = trajectory_of(*log, params.odometry == OdometryUse::use);
     out.frames.open = [log, fan, limits](std::size_t k, Context&) {
       const LaserScan& scan = log->scans[k];
       return Frame{static_cast<std::uint32_t>(k), cloud_of(scan, fan(scan), limits(scan))};
@@ -167,7 +167,7 @@ struct Carmen : WholeStep {
                    std::to_string(scans[0].ranges.size()) +
                    " or another) is of no known scanner are taken as 180 degrees (" +
                    std::to_string(unknown) + "): set field_of_view if that is wrong");
-    if (params.odometry == Odometry::use && !moves)
+    if (params.odometry == OdometryUse::use && !moves)
       context.warn(file +
                    ": has no odometry, or the robot never moves by it; every pose is the same: set "
                    "'odometry: ignore' if that is right");

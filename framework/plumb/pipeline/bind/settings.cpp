@@ -31,7 +31,7 @@ constexpr TypeName type_names[] = {
 };
 
 /// The type that is declared, or null (told).
-const TypeName* type_of(const Entry& entry, const std::string& place, Diagnostics& diagnostics) {
+const TypeName* type_at(const Entry& entry, const std::string& place, Diagnostics& diagnostics) {
   const Node* type = entry.value.at("type");
   const auto* found = std::find_if(
       std::begin(type_names), std::end(type_names),
@@ -98,7 +98,7 @@ OrFaulty<SettingValue> setting_value(const Entry& entry, bool open, Diagnostics&
   const std::string place = "parameter '" + entry.key + "'";
   const Node& node = entry.value;
   if (!check_keys(diagnostics, node, place, {"type", "of", "default", "about"})) return Faulty();
-  const TypeName* type = type_of(entry, place, diagnostics);
+  const TypeName* type = type_at(entry, place, diagnostics);
   if (!type) return Faulty();
   SettingValue value;
   value.type.name = entry.key;

@@ -14,7 +14,7 @@ bool leaves_something(const StepDescription& step) {
   });
 }
 
-bool from_command_line(const Origin& origin) { return origin.line == 0; }
+bool without_a_line(const Origin& origin) { return origin.line == 0; }
 
 std::string left_without_use(const Origin& origin, const std::string& what) {
   return origin.text() + ": warning: nothing uses the " + what +
@@ -98,12 +98,12 @@ void check_unused(const Bound& bound, bool judged, Diagnostics& diagnostics) {
 std::vector<std::string> warnings_of(const Bound& bound) {
   std::vector<std::string> warnings;
   for_each_unused_setting(bound, [&](const std::string& name, const Setting& setting) {
-    if (setting.value && from_command_line(setting.value->origin))
+    if (setting.value && without_a_line(setting.value->origin))
       warnings.push_back(left_without_use(setting.value->origin, "parameter '" + name + "'"));
   });
   for (std::size_t k = 0; k < bound.repeats.size(); ++k)
     for_each_unused_row(bound, static_cast<int>(k), [&](const DeclaredRow& row) {
-      if (from_command_line(row.origin))
+      if (without_a_line(row.origin))
         warnings.push_back(left_without_use(
             row.origin, "row '" + bound.declared.repeats[k].path + "." + row.name + "'"));
     });

@@ -19,7 +19,7 @@ void write_file(const fs::path& file, const std::string& bytes) {
                 "); is the cache's disk full?");
 }
 
-std::string text_of(const fs::path& file) { return std::string(MappedFile(file).bytes()); }
+std::string text_in(const fs::path& file) { return std::string(MappedFile(file).bytes()); }
 
 /// The Notice at a place of a chunk's file, and the place behind it; none when it is being written,
 /// or was cut by a kill.
@@ -36,7 +36,7 @@ std::optional<Notice> notice_at(std::string_view bytes, std::uintmax_t& place) {
 }  // namespace
 
 std::optional<JobFolder::Submitted> JobFolder::submitted() const {
-  std::istringstream in(text_of(folder_ / "submitted"));
+  std::istringstream in(text_in(folder_ / "submitted"));
   Submitted submitted;
   if (!(in >> submitted.number >> submitted.job)) return std::nullopt;
   return submitted;
@@ -75,7 +75,7 @@ void JobFolder::remove() const {
 }
 
 Task read_task(const fs::path& file) {
-  const std::string bytes = text_of(file);
+  const std::string bytes = text_in(file);
   if (bytes.empty())
     throw Error(file.string() +
                 ": there is no such task; a worker gets it from 'plumb run --executor slurm'");
