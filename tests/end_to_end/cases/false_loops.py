@@ -1,0 +1,37 @@
+"""Loops that are wrong, in shares that are known, inside of the shipped pipelines: tools/false_loops.py on a small street."""
+import json
+import subprocess
+import sys
+
+from plumb_test import BUILD, PLUMB, SOURCE, sequence
+
+TOOL = [sys.executable, str(SOURCE / "tools/false_loops.py")]
+MODULES = BUILD / "tests/end_to_end/modules"
+
+
+def rows(folder, *options):
+    """What came of each run, and how the tool ended."""
+    done = subprocess.run([*TOOL, str(folder / "out"), "--simulated", "0", "--input", str(sequence("street")), "--seeds", "1", "--plumb", str(PLUMB),
+                           "--modules", str(MODULES), *options], capture_output=True, text=True)
+    print(done.stdout)
+    assert done.returncode in (0, 1) and (folder / "out/false_loops.md").read_text() == done.stdout, done.stdout + done.stderr
+    found = json.loads((folder / "out/false_loops.json").read_text())
+    for row in found:
+        wanted = round(row["share"] / 100 * row["loops"])
+        assert row["spoilt"] == (wanted if row["how"] == "alone" else max(5, wanted // 5 * 5)), row
+        assert row["spoilt"] < row["loops"] and row["spoilt_kept"] <= row["spoilt"] and row["others_left_out"] >= 0, row
+    return {(row["how"], row["share"]): row for row in found}, done.returncode
+
+
+def test_the_recommended_pipeline_does_without_a_third_of_its_loops(folder):
+    found, code = rows(folder, "--share", "10", "--share", "30")
+    assert len(found) == 4 and code == 0, found
+    for how in ("alone", "fives"):
+        row = found[how, 30]
+        assert row["spoilt_kept"] == 0 and row["ratio"] <= 1.1, row
+
+
+def test_the_cascade_does_without_a_third_of_its_loops(folder):
+    found, code = rows(folder, "--pipeline", "tang2024", "--set", "ranges.frames=6", "--share", "30")
+    assert len(found) == 2 and code == 0, found
+    assert found["alone", 30]["ratio"] <= 1.1, found
