@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How much of the loops may be wrong? Spoils some of them inside of a shipped pipeline and compares its error with that of the clean run.
 
-    python3 tools/false_loops.py OUT [--pipeline plumb|tang2024] [--share PERCENT]... [--input SEQUENCE]... [--simulated N] [--seeds N]
-                                     [--columns N] [--set NAME=VALUE]... [--plumb FILE] [--modules DIR]
+    python3 tools/false_loops.py OUT [--pipeline plumb|tang2024] [--share PERCENT]... [--how alone|fives] [--input SEQUENCE]...
+                                     [--simulated N] [--seeds N] [--columns N] [--set NAME=VALUE]... [--plumb FILE] [--modules DIR]
 
 OUT becomes a folder with N simulated streets (four), the cache, the runs, and false_loops.json and .md, which is printed too. The step test.false_loops (of
 the tests' modules) stands before the pipeline judges its loops: it moves the given shares of them (10, 30 and 50 %) by 2 to 20 m and turns them by up to 20
@@ -71,7 +71,7 @@ def streets(options):
 
 def variants(options):
     """{name: (how, share [%])}."""
-    return {f"{how}_{share:g}": (how, share) for how in HOW for share in options.share}
+    return {f"{how}_{share:g}": (how, share) for how in options.how for share in options.share}
 
 
 def compared(options):
@@ -160,6 +160,7 @@ def main():
     arguments.add_argument("out", type=Path, metavar="OUT")
     arguments.add_argument("--pipeline", choices=list(EDITS), default="plumb")
     arguments.add_argument("--share", type=float, action="append", metavar="PERCENT")
+    arguments.add_argument("--how", choices=list(HOW), action="append")
     arguments.add_argument("--input", type=Path, action="append", default=[])
     arguments.add_argument("--simulated", type=int, choices=range(len(STREETS) + 1), default=len(STREETS), metavar="N")
     arguments.add_argument("--seeds", type=int, default=3)
@@ -168,7 +169,7 @@ def main():
     arguments.add_argument("--plumb", type=Path, default=ROOT / "build/bin/plumb")
     arguments.add_argument("--modules", type=Path, default=ROOT / "build/tests/end_to_end/modules")
     options = arguments.parse_args()
-    options.share = options.share or [10, 30, 50]
+    options.share, options.how = options.share or [10, 30, 50], options.how or list(HOW)
     options.out.mkdir(parents=True, exist_ok=True)
     rows = rows_of(options, compared(options))
     text, good = summary(rows)

@@ -4,11 +4,14 @@ import io
 import itertools
 import json
 import math
+import re
+import signal
 import subprocess
 import sys
+import time
 from xml.etree import ElementTree
 
-from plumb_test import DONE, NOTHING, PIPELINES, SOURCE, STEP_FAILED, UNSETTLED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, plumb, refused
+from plumb_test import DONE, NOTHING, PIPELINES, PLUMB, SOURCE, STEP_FAILED, UNSETTLED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, plumb, refused
 
 # The odometry itself is judged: a run of a moment, whose error the replicates change a little and `odometry: ignore` very much.
 ODOMETRY = """plumb: 1
@@ -81,91 +84,35 @@ def test_a_variant_that_is_worse_everywhere_is_worse(folder):
     assert not number_of(made)["exploratory"] and number_of(made, "error.fine.ate_max")["exploratory"]
 
 
-def subsets_refuted(differences, alpha=0.05):
-    """The ends of the interval of the sign-flip test, by looking for where its p crosses alpha."""
-    import numpy as np
-    signs = np.array(list(itertools.product((1, -1), repeat=len(differences))))
-
-    def p(centre):
-        d = np.array(differences) - centre
-        return np.mean(np.abs(signs @ d) >= abs(d.sum()) - 1e-12)
-
-    def edge(inside, outside):
-        for _ in range(80):
-            middle = (inside + outside) / 2
-            inside, outside = (middle, outside) if p(middle) > alpha else (inside, middle)
-        return inside
-    mean, width = sum(differences) / len(differences), max(differences) - min(differences) + 1
-    return edge(mean, mean - width), edge(mean, mean + width)
+def computed_once_more(result):
+    """{method: comparisons} of which a second computation, by scipy and numpy and from the runs alone, found the same p and intervals."""
+    done = subprocess.run([sys.executable, str(SOURCE / "tools/recomputed.py"), str(result)], capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.endswith("\n0 differ\n"), done.stdout + done.stderr
+    return {method: int(count) for count, method in re.findall(r"^(\d+) comparisons, (.*): the same once more$", done.stdout, re.M)}
 
 
 def test_intervals_over_inputs_are_those_of_scipy(folder):
-    """A second computation of p and interval, from the runs alone."""
-    import numpy as np
-    from scipy import stats
     more = "variants:\n  thin: {set: {log.skip_frames: 4, log.drop_frames: 20 %}}\nreplicates: {count: 2, seed: 5, skip_frames: 3}\n"
-    made = outcome(experiment(folder, rooms(folder, 7), more), code=(DONE, WORSE))
-    checked = 0
-    for number in made["numbers"]:
-        if number["scale"] != "ratio" or "thin" not in number["variants"] or number["unit"] == "CPU s":
-            continue
-        value = {(run["variant"], run["input"], run["replicate"]): one["value"] for run in made["runs"] for one in run["numbers"]
-                 if one["name"] == number["name"]}
-        d = [np.mean([math.log(value["thin", k, r] / value["wheels", k, r]) for r in (1, 2)]) for k in made["inputs"]]
-        if len(value) < 2 * 7 * 2:
-            continue  # a path that is too short for a relative error
-        found = number["variants"]["thin"]["against"]
-        if found["method"] == "identical":
-            assert d == [0] * 7
-            continue
-        assert found["method"] == "sign-flip over inputs", found
-        expected = stats.permutation_test((np.array(d), np.zeros(7)), lambda x, y: np.mean(x - y), permutation_type="samples", n_resamples=np.inf).pvalue
-        assert abs(found["p"] - expected) < 1e-9, (number["name"], found["p"], expected)
-        low, high = (math.exp(end) for end in subsets_refuted(d))
-        assert np.allclose(found["interval"], (low, high), rtol=1e-6), (number["name"], found["interval"], low, high)
-        assert abs(found["ratio"] - math.exp(np.mean(d))) < 1e-9
-        checked += 1
-    assert checked >= 3, made["numbers"]
+    made = outcome(experiment(folder, rooms(folder, 7), more), "--save", folder / "a.json", code=(DONE, WORSE))
+    found = computed_once_more(folder / "a.json")
+    assert found["sign-flip over inputs"] >= 3, found
+    # And what is not the same is seen.
+    number_of(made)["variants"]["thin"]["against"]["interval"][0] *= 0.999
+    (folder / "b.json").write_text(json.dumps(made))
+    done = subprocess.run([sys.executable, str(SOURCE / "tools/recomputed.py"), str(folder / "b.json")], capture_output=True, text=True)
+    assert done.returncode == 1 and "error.fine.ate, thin: the interval is" in done.stdout and done.stdout.endswith("\n1 differ\n"), done.stdout
 
 
 def test_intervals_on_few_inputs_are_those_of_numpy(folder):
-    """The bootstrap over segments again, with numpy, other draws and the segments' sums made from what the runs wrote."""
-    import numpy as np
+    """The bootstrap over segments, by other draws; and the segments' sums, from what the runs wrote."""
     inputs = rooms(folder, 2)
     file = experiment(folder, inputs, "variants:\n  thin: {set: {log.drop_frames: 20 %}}\n  coarse: {set: {voxel_size: 0.2 m}}\n")
-    made = outcome(file, "-o", folder / "out", code=(DONE, WORSE))
-    draws = np.random.default_rng(7)
+    made = outcome(file, "-o", folder / "out", "--save", folder / "a.json", code=(DONE, WORSE))
+    found = computed_once_more(folder / "a.json")
+    assert found["bootstrap over segments"] >= 2 and "sign-flip over inputs" not in found, found
 
     def sums_of(run, name):
         return next((one["segments"] for one in run["numbers"] if one["name"] == name and "segments" in one), None)
-
-    checked = []
-    for name, variant in itertools.product(("error.fine.ate", "match_rmse.fine"), ("thin", "coarse")):
-        found = against(made, variant, name)
-        runs = {(run["variant"], run["input"]): sums_of(run, name) for run in made["runs"]}
-        if found["method"] == "identical":
-            continue
-        assert found["method"] == "bootstrap over segments" and found["on_these_data"], found
-        means = []
-        for _ in range(4000):
-            logs = []
-            for k in made["inputs"]:
-                a, b = runs["wheels", k], runs[variant, k]
-                n, m = len(a["sum"]), len(b["sum"])
-                times = np.bincount(draws.integers(0, n, n), minlength=n)
-                of_b = times[np.arange(m) * n // m]
-
-                def value(sums, weights):
-                    mean = np.dot(weights, sums["sum"]) / np.dot(weights, sums["count"])
-                    return math.sqrt(mean) if sums["root"] else mean
-                logs.append(math.log(value(b, of_b) / value(a, times)))
-            means.append(np.mean(logs))
-        low, high = np.quantile(means, (0.025, 0.975))
-        width = high - low
-        assert abs(math.log(found["interval"][0]) - low) < 0.1 * width and abs(math.log(found["interval"][1]) - high) < 0.1 * width, \
-            (name, variant, found["interval"], math.exp(low), math.exp(high))
-        checked.append(name)
-    assert {"error.fine.ate", "match_rmse.fine"} <= set(checked), checked
 
     # The sums themselves are those of the numbers; `thin` has the stamps at which all are judged.
     for run in made["runs"]:
@@ -297,6 +244,28 @@ def test_what_is_common_is_made_once_and_a_second_run_makes_nothing(folder):
     assert len(times) == 4 and all(one["cached"] for one in times), times
     assert "against" not in number_of(second, "time")["variants"]["coarse"]
     plumb("compare", file, "--cache-dir", folder / "cache", "--quiet", code=(DONE, WORSE)).has("* was spent in part in earlier runs")
+
+
+def test_killed_it_goes_on_and_makes_nothing_twice(folder):
+    file = experiment(folder, rooms(folder, 3, length="20m"), "variants:\n  coarse: {set: {voxel_size: 0.2 m}}\n"
+                      "  near: {set: {match_rmse.max_correspondence_distance: 0.2 m}}\n")
+    command = ["compare", file, "--cache-dir", folder / "cache", "--quiet", "--save", folder / "a.json", "--events"]
+    first, second = folder / "events_1.jsonl", folder / "events_2.jsonl"
+    running = subprocess.Popen([str(word) for word in (PLUMB, *command, first)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while running.poll() is None and not (first.exists() and first.read_text().count('"run_begins"') == 5):
+        time.sleep(0.001)
+    running.kill()
+    assert running.wait() == -signal.SIGKILL and not (folder / "a.json").exists()
+    plumb(*command, second, code=(DONE, WORSE))
+    assert json.loads((folder / "a.json").read_text())["runs"]
+    done = subprocess.run([sys.executable, str(SOURCE / "tools/made_once.py"), *map(str, (file, first, second)), "--plumb", str(PLUMB)],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    said = done.stdout.splitlines()
+    assert said[0].startswith("3 variants on 3 inputs, in ") and said[0].endswith("runs of which 1 were cut off") and said[-1] == "0 made twice", said
+    common, made_of_common = (int(number) for number in re.findall(r"\d+", said[2]))
+    every, made, again = (int(number) for number in re.findall(r"\d+", said[3]))
+    assert 0 < common < every and made == every + again and made_of_common <= common + again and again < made / 9, said
 
 
 def test_an_experiment_is_checked_before_anything_runs(folder):
