@@ -35,10 +35,10 @@ def plumb(options, *words):
         sys.exit(f"$ {' '.join(command)}\n{done.stdout}{done.stderr}")
 
 
-def run(options, pipeline, out, *sets):
+def run(options, pipeline, out, *sets, preset=None):
     """{stage: {number: value}} of the metrics, and the events."""
     events = Path(f"{out}.jsonl")
-    words = [word for each in sets for word in ("--set", each)]
+    words = (["--preset", preset] if preset else []) + [word for each in sets for word in ("--set", each)]
     plumb(options, "run", pipeline, *words, "--no-cache", "--events", events, "--quiet", "-o", out)
     stages = json.loads((out / "metrics.json").read_text())["stages"]
     return ({stage["stage"]: {name: number["value"] for name, number in stage["numbers"].items()} for stage in stages},

@@ -145,6 +145,25 @@ def tables(folder, *options):
     return found
 
 
+def test_the_tables_of_the_readme_come_out_of_one_command(folder):
+    street = sequence("straight")
+    done = subprocess.run([sys.executable, str(SOURCE / "tools/literal_tables.py"), str(folder / "tables"), "--plumb", str(PLUMB), "--share", "0.04", "--columns",
+                           "128", "--corridors", "1", "--input", str(street)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    print(done.stdout)
+    readme = (SOURCE / "README.md").read_text()
+    heads = [line for line in done.stdout.splitlines() if line.startswith(("| sequence |", "| reduction |"))]
+    assert len(heads) == 2 and all(f"\n{head}\n" in readme for head in heads), heads
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("| ") and line not in heads]
+    rows = [row for row in rows if row[0] != "---"]
+    of_space, of_plane = rows[:3], rows[3:]
+    assert of_space[0][0] == "simulated street, out and back, 180 m" and of_space[2][0] == street.name, of_space
+    for _, *errors, letter, ours in of_space:
+        assert all(re.fullmatch(r"\d+\.\d\d m", error) for error in errors) and re.fullmatch(r"\d+\.\d\d -> \d+\.\d\d m", letter) and "->" in ours, of_space
+    assert [row[0] for row in of_plane] == re.findall(r"^\| ((?:iterations|time|mean|largest)[^|]*) \| \d", readme, re.M), of_plane
+    assert all(re.fullmatch(r"-?\d+\.\d %", cell) for row in of_plane for cell in row[1:] if cell != row[1]), of_plane
+
+
 def test_the_tables_of_tang2024_come_out_of_one_command(folder):
     found = tables(folder, "--paper", "tang2024", "--data", 4, "--share", 0.06, "--columns", 256)
     first, second, third = found.values()

@@ -10,7 +10,8 @@
 namespace plumb::experiment {
 namespace {
 
-constexpr double width = 960, names = 300, right = 40, row_height = 26, top = 60;  // [px]
+constexpr double scale_width = 620, right = 40, row_height = 26, top = 60;  // [px]
+constexpr double character = 7.5;                                           // of names, about [px]
 
 std::string escaped(const std::string& text) {
   std::string all;
@@ -33,14 +34,15 @@ std::string pixels(double value) {
   return text;
 }
 
-/// From contrasts to pixels.
+/// From contrasts to pixels, right of the variants' names.
 struct Range {
   double low = -0.01, high = 0.01;
+  double names = 0;  ///< [px] width of the longest
 
   void hold(double value) { low = std::min(low, value), high = std::max(high, value); }
   double x(double value) const {
     const double margin = 0.05 * (high - low);
-    return names + (width - names - right) * (value - low + margin) / (high - low + 2 * margin);
+    return names + scale_width * (value - low + margin) / (high - low + 2 * margin);
   }
 };
 
@@ -48,6 +50,7 @@ Range axis_of(const Judged& number, double margin) {
   Range axis;
   axis.hold(-margin), axis.hold(margin);
   for (const Contrast& c : number.contrasts) {
+    axis.names = std::max(axis.names, 24 + character * static_cast<double>(c.variant.size()));
     for (const double one : c.by_input) axis.hold(one);
     if (c.interval) axis.hold(c.interval->low), axis.hold(c.interval->high);
   }
@@ -92,7 +95,7 @@ std::string mark_text(const Judged& number, double contrast) {
 }
 
 std::string row_of(const Contrast& c, const Range& axis, double y) {
-  std::string text = words(names - 12, y + 4, c.variant, "end");
+  std::string text = words(axis.names - 12, y + 4, c.variant, "end");
   if (c.by_input.empty()) return text + words(axis.x(0) + 8, y + 4, "no result", "start");
   for (const double one : c.by_input)
     text += line(axis.x(one), y - 5, axis.x(one), y + 5, "stroke='#999'");
@@ -107,10 +110,13 @@ std::string row_of(const Contrast& c, const Range& axis, double y) {
 
 std::string outcome_svg(const Outcome& outcome) {
   const Judged* number = outcome.primary();
+  const double margin =
+      number && number->scale == Scale::ratio ? std::log1p(outcome.rules.margin) : 0;
+  const Range axis = number ? axis_of(*number, margin) : Range();
   const std::size_t rows = number ? number->contrasts.size() : 0;
-  const double height = top + row_height * static_cast<double>(rows) + 50;
-  std::string text = "<svg xmlns='http://www.w3.org/2000/svg' width='" + pixels(width) +
-                     "' height='" + pixels(height) +
+  const double bottom = top + row_height * static_cast<double>(rows);
+  std::string text = "<svg xmlns='http://www.w3.org/2000/svg' width='" +
+                     pixels(axis.names + scale_width + right) + "' height='" + pixels(bottom + 50) +
                      "' font-family='sans-serif' font-size='13'>\n"
                      "<rect width='100%' height='100%' fill='white'/>\n";
   if (!number) return text + words(20, 30, "nothing was compared", "start") + "</svg>\n";
@@ -119,9 +125,6 @@ std::string outcome_svg(const Outcome& outcome) {
                 "dots: mean, bars: 95 %, ticks: inputs, band: equivalent; to the left is " +
                     std::string(number->higher_is_better ? "worse" : "better"),
                 "start");
-  const double margin = number->scale == Scale::ratio ? std::log1p(outcome.rules.margin) : 0;
-  const Range axis = axis_of(*number, margin);
-  const double bottom = top + row_height * static_cast<double>(rows);
   text += "<rect x='" + pixels(axis.x(-margin)) + "' y='" + pixels(top) + "' width='" +
           pixels(axis.x(margin) - axis.x(-margin)) + "' height='" + pixels(bottom - top) +
           "' fill='#e4ecd8'/>\n";
