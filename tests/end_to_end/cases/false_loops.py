@@ -3,16 +3,16 @@ import json
 import subprocess
 import sys
 
-from plumb_test import BUILD, PLUMB, SOURCE, sequence
+from plumb_test import BUILD, PLUMB, SOURCE, plumb, sequence
 
 TOOL = [sys.executable, str(SOURCE / "tools/false_loops.py")]
 MODULES = BUILD / "tests/end_to_end/modules"
 
 
-def rows(folder, *options):
+def rows(folder, street, *options):
     """What came of each run, and how the tool ended."""
-    done = subprocess.run([*TOOL, str(folder / "out"), "--simulated", "0", "--input", str(sequence("street")), "--seeds", "1", "--plumb", str(PLUMB),
-                           "--modules", str(MODULES), *options], capture_output=True, text=True)
+    done = subprocess.run([*TOOL, str(folder / "out"), "--simulated", "0", "--input", str(street), "--seeds", "1", "--plumb", str(PLUMB), "--modules",
+                           str(MODULES), *options], capture_output=True, text=True)
     print(done.stdout)
     assert done.returncode in (0, 1) and (folder / "out/false_loops.md").read_text() == done.stdout, done.stdout + done.stderr
     found = json.loads((folder / "out/false_loops.json").read_text())
@@ -24,13 +24,15 @@ def rows(folder, *options):
 
 
 def test_the_recommended_pipeline_does_without_a_third_of_its_loops(folder):
-    found, code = rows(folder, "--share", "10", "--share", "30")
+    street = folder / "street"  # long enough that five that agree are no majority
+    plumb("simulate", "out_and_back", "--length", "400m", "--frames", 200, "--lines", 16, "--columns", 512, "--drift", 6, "-o", street)
+    found, code = rows(folder, street, "--share", "10", "--share", "30")
     assert len(found) == 4 and code == 0, found
-    for how in ("alone", "fives"):
-        row = found[how, 30]
+    for (how, _), row in found.items():
         assert row["spoilt_kept"] == 0 and row["ratio"] <= 1.1, row
+        assert how == "alone" or row["spoilt"] >= 5, row
 
 
 def test_the_cascade_does_without_a_third_of_its_loops(folder):
-    found, code = rows(folder, "--pipeline", "tang2024", "--set", "ranges.frames=6", "--how", "alone", "--share", "10", "--share", "30")
+    found, code = rows(folder, sequence("street"), "--pipeline", "tang2024", "--set", "ranges.frames=6", "--how", "alone", "--share", "10", "--share", "30")
     assert len(found) == 2 and code == 0, found
