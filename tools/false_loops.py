@@ -95,11 +95,10 @@ def compared(options):
 def loops_of(folder):
     """Of one run: how many loops there were, how many were spoilt, how many of these were kept, and how many of the others were not."""
     stages = {stage["stage"]: stage for stage in json.loads((folder / "metrics.json").read_text())["stages"]}
-    spoilt = {(edge["i"], edge["j"]) for edge in stages["spoilt"]["edges"]}
-    judged = [edge for edge in stages["loops"]["edges"] if edge["kind"] == "loop" and edge["status"] not in ("not registered", "no matches")]
-    kept = [(edge["i"], edge["j"]) in spoilt for edge in judged if edge["status"] in KEPT]
-    loops = int(stages["spoilt"]["numbers"]["loops"]["value"])
-    return {"loops": loops, "spoilt": len(spoilt), "spoilt_kept": sum(kept), "others_left_out": loops - len(spoilt) - (len(kept) - sum(kept))}
+    spoilt = {(edge["i"], edge["j"]): edge["status"] == "spoilt" for edge in stages["spoilt"]["edges"]}
+    kept = {(edge["i"], edge["j"]) for edge in stages["loops"]["edges"] if edge["status"] in KEPT}
+    return {"loops": len(spoilt), "spoilt": sum(spoilt.values()), "spoilt_kept": sum(spoilt[loop] for loop in kept & spoilt.keys()),
+            "others_left_out": sum(not wrong and loop not in kept for loop, wrong in spoilt.items())}
 
 
 def rows_of(options, runs):

@@ -34,5 +34,5 @@ def test_the_recommended_pipeline_does_without_a_third_of_its_loops(folder):
 
 
 def test_the_cascade_does_without_a_third_of_its_loops(folder):
-    found, code = rows(folder, sequence("street"), "--pipeline", "tang2024", "--set", "ranges.frames=6", "--how", "alone", "--share", "10", "--share", "30")
-    assert len(found) == 2 and code == 0, found
+    found, code = rows(folder, sequence("street"), "--pipeline", "tang2024", "--set", "ranges.frames=6", "--how", "alone", "--share", "30")
+    assert len(found) == 1 and code == 0, found

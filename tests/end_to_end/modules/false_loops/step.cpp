@@ -12,6 +12,7 @@
 #include "plumb/data/random.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/registration.hpp"
+#include "plumb/slam/trajectory_error.hpp"
 #include "plumb/slam/values.hpp"
 
 namespace plumb {
@@ -86,17 +87,19 @@ std::vector<Spoilt> spoilt(const std::vector<Edge>& edges, std::vector<std::size
   return all;
 }
 
-Metrics metrics_of(const std::vector<Edge>& edges, std::size_t loops,
+/// A record for each of `loops`, places in `edges`.
+Metrics metrics_of(const std::vector<Edge>& edges, const std::vector<std::size_t>& loops,
                    const std::vector<Spoilt>& all) {
   Metrics metrics;
   metrics.add("spoilt", static_cast<double>(all.size()), "")
-      .add("loops", static_cast<double>(loops), "");
-  for (const Spoilt& one : all) {
+      .add("loops", static_cast<double>(loops.size()), "");
+  for (const std::size_t k : loops) {
+    const auto wrong = std::ranges::find(all, k, &Spoilt::k);
     EdgeRecord record;
-    record.i = edges[one.k].i, record.j = edges[one.k].j;
-    record.kind = edges[one.k].kind;
-    record.residual = one.motion.translation.norm();
-    record.status = "spoilt";
+    record.i = edges[k].i, record.j = edges[k].j;
+    record.kind = edges[k].kind;
+    record.residual = wrong == all.end() ? 0 : wrong->motion.translation.norm();
+    record.status = wrong == all.end() ? "as it was" : "spoilt";
     metrics.edges.push_back(std::move(record));
   }
   return metrics;
@@ -139,12 +142,13 @@ struct FalseRegistrations : WholeStep {
       Pose& T_i_j = out.registrations[one.k].T_i_j;
       T_i_j = one.motion * T_i_j;
     }
-    out.metrics = metrics_of(edges.list, loops.size(), all);
+    out.metrics = metrics_of(edges.list, loops, all);
     return out;
   }
 };
 
-/// Of those with matches.
+/// Of those with matches, and with so much path between their ends that they are another visit:
+/// a neighbour by overlap may be one, too.
 struct FalseMatches : WholeStep {
   struct In {
     Each<Matches> matches;
@@ -155,7 +159,9 @@ struct FalseMatches : WholeStep {
     std::vector<Matches> matches;
     Metrics metrics;
   };
-  using Params = FalseLoops;
+  struct Params : FalseLoops {
+    double min_path_separation = 40;
+  };
 
   static void describe(Declaration<FalseMatches>& is) {
     is.name("test.false_matches").version(1).summary("Makes the matches of some loops wrong.");
@@ -165,6 +171,10 @@ struct FalseMatches : WholeStep {
     is.output("matches", &Out::matches, "the same, those of some loops wrong").over("matches");
     is.output("metrics", &Out::metrics, "which are wrong");
     FalseLoops::describe(is);
+    is.param("min_path_separation", &Params::min_path_separation)
+        .unit("m")
+        .range(0, 1e6)
+        .doc("edges with less path between their ends are no loops");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -172,16 +182,19 @@ struct FalseMatches : WholeStep {
     require_pose_each(*in.poses, edges.segments);
     Out out;
     out.matches = in.matches.all(context);
+    const std::vector<double> path = path_of(in.poses->T_world_segment);
     std::vector<std::size_t> loops;
     for (std::size_t k = 0; k < out.matches.size(); ++k)
-      if (edges.list[k].kind == EdgeKind::loop && out.matches[k].size() > 0) loops.push_back(k);
+      if (out.matches[k].size() > 0 &&
+          path[edges.list[k].j] - path[edges.list[k].i] >= params.min_path_separation)
+        loops.push_back(k);
     const auto all = spoilt(edges.list, loops, *in.poses, params);
     for (const Spoilt& one : all) {
       const Motion motion(one.motion);
       for (auto& p : out.matches[one.k].p) p = motion * p;
       for (auto& normal : out.matches[one.k].normal_p) normal = motion.r * normal;
     }
-    out.metrics = metrics_of(edges.list, loops.size(), all);
+    out.metrics = metrics_of(edges.list, loops, all);
     return out;
   }
 };
