@@ -12,9 +12,9 @@ namespace plumb::describe_shot {
 inline constexpr std::size_t shot_size = 352;
 
 struct ShotOptions {
-  double radius = 2.5;               ///< [m] of a neighbourhood
-  std::optional<double> lrf_radius;  ///< [m] of the local reference frame's; none: `radius`
-  double border_angle = 90 * deg;    ///< [rad] a wider gap between neighbours makes a border
+  double radius = 2.5;                    ///< [m] of a neighbourhood
+  std::optional<double> lrf_radius = {};  ///< [m] of the local reference frame's; none: `radius`
+  double border_angle = 90 * deg;         ///< [rad] a wider gap between neighbours makes a border
 
   /// As parameters of a step.
   template <class Declare>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double most_bins = 1 << 24;  // PCL's grid is dense
 
-using Frames = ::pcl::PointCloud<::pcl::ReferenceFrame>;
+using ReferenceFrames = ::pcl::PointCloud<::pcl::ReferenceFrame>;
 
 std::vector<Eigen::Matrix3f> frames_at(const std::vector<Eigen::Vector3f>& points,
                                        const Cloud& cloud, double radius) {
@@ -24,7 +24,7 @@ std::vector<Eigen::Matrix3f> frames_at(const std::vector<Eigen::Vector3f>& point
   estimate.setInputCloud(pcl::points_of(points));
   estimate.setSearchSurface(pcl::points_of(cloud));
   estimate.setRadiusSearch(radius);
-  Frames frames;
+  ReferenceFrames frames;
   estimate.compute(frames);
   std::vector<Eigen::Matrix3f> result;
   for (const auto& frame : frames) result.push_back(frame.getMatrix3fMap());
@@ -34,7 +34,7 @@ std::vector<Eigen::Matrix3f> frames_at(const std::vector<Eigen::Vector3f>& point
 /// What PCL is given: pairs as two clouds with frames, point k of one with point k of the other.
 struct Pairs {
   pcl::Points::Ptr p{new pcl::Points}, q{new pcl::Points};
-  Frames::Ptr at_p{new Frames}, at_q{new Frames};
+  ReferenceFrames::Ptr at_p{new ReferenceFrames}, at_q{new ReferenceFrames};
 
   void add(const Eigen::Vector3f& point_p, const Eigen::Vector3f& point_q,
            const Eigen::Matrix3f& frame_p, const Eigen::Matrix3f& frame_q) {

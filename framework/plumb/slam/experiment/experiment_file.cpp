@@ -14,7 +14,7 @@ using pipeline::Diagnostics, pipeline::Entry, pipeline::Node;
 
 namespace {
 
-constexpr std::uint64_t largest_file = 1 << 20;  // [byte]
+constexpr std::uint64_t largest_experiment = 1 << 20;  // [byte]
 constexpr double most_replicates = 1000;
 constexpr std::size_t most_axes = 20, most_row_values = 100;
 
@@ -264,8 +264,8 @@ std::vector<std::string> names_of(const std::vector<fs::path>& paths) {
 
 Experiment read_experiment(const fs::path& file) {
   Diagnostics diagnostics;
-  const auto text =
-      std::make_shared<const std::string>(io::FileBytes(file, largest_file, "experiment").view());
+  const auto text = std::make_shared<const std::string>(
+      io::FileBytes(file, largest_experiment, "experiment").view());
   const auto tree = pipeline::parse_yaml(*text, file.string(), diagnostics);
   if (!tree) diagnostics.raise();
   Experiment experiment = Reader(file, text, diagnostics).read(*tree);

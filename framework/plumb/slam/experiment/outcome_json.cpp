@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;  // [byte]
+constexpr std::uint64_t largest_outcome = std::uint64_t{1} << 30;  // [byte]
 constexpr std::size_t most_cells = 100000;
 
 const char* name_of(Method method) {
@@ -202,7 +202,7 @@ std::string outcome_json(const Outcome& outcome) {
 }
 
 Outcome outcome_of_json(const std::filesystem::path& file) {
-  const io::FileBytes bytes(file, largest_file, "outcome");
+  const io::FileBytes bytes(file, largest_outcome, "outcome");
   try {
     const Json json = Json::parse(bytes.view().begin(), bytes.view().end());
     Outcome outcome;

@@ -18,7 +18,7 @@ namespace {
 using experiment::Figure, experiment::SegmentSums;
 
 constexpr std::size_t parts_of_path = 20;
-constexpr std::size_t most_revisits = 60;
+constexpr std::size_t most_alike = 60;
 
 /// A stamp as files have it.
 std::int64_t key_of(double stamp) { return std::llround(1e6 * stamp); }
@@ -118,12 +118,12 @@ std::vector<Revisit> pooled_revisits(const std::vector<std::vector<Pose>>& poses
   for (const auto& each : poses) of_each.push_back(revisits_of(each));
   std::vector<Revisit> pooled;
   std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (std::size_t rank = 0; rank < most_revisits; ++rank)
+  for (std::size_t rank = 0; rank < most_alike; ++rank)
     for (const auto& revisits : of_each) {
       // Spread over all of them: their first ones may lie in one street.
       const std::size_t stride =
-          std::max<std::size_t>(1, revisits.size() * poses.size() / most_revisits);
-      if (rank * stride >= revisits.size() || pooled.size() >= most_revisits) continue;
+          std::max<std::size_t>(1, revisits.size() * poses.size() / most_alike);
+      if (rank * stride >= revisits.size() || pooled.size() >= most_alike) continue;
       const Revisit& revisit = revisits[rank * stride];
       if (seen.insert({revisit.first, revisit.second}).second) pooled.push_back(revisit);
     }
