@@ -63,8 +63,8 @@ struct Kitti : WholeStep {
     }
 
     for (const auto& file : files) out.frames.keys.push_back(io::key_of(file));
-    out.frames.open = [files = std::move(files)](std::size_t k, Context& context) {
-      return io::frame_of(k, read_bin(files[k].path), context);
+    out.frames.open = [files = std::move(files)](std::size_t k, Context& of_frame) {
+      return io::frame_of(k, read_bin(files[k].path), of_frame);
     };
     return out;
   }

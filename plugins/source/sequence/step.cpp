@@ -65,8 +65,8 @@ struct Sequence : WholeStep {
     for (std::size_t k = 0; k < files.size(); ++k)
       out.frames.keys.push_back(key_of_frame(files[k], world, trajectory->T_world_frame[k]));
     out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
-                                                                    Context& context) {
-      Frame frame = io::frame_of(k, read_cloud(files[k].path), context);
+                                                                    Context& of_frame) {
+      Frame frame = io::frame_of(k, read_cloud(files[k].path), of_frame);
       if (world) bring_to_frame(frame.cloud, trajectory->T_world_frame[k]);
       return frame;
     };
