@@ -90,7 +90,7 @@ TEST(LoopConsistency, DropsLoopsWithinTheDriftThatTheirNeighboursContradict) {
 /// The same motion of the world for all of them: they agree.
 void move_alike(std::vector<Loop>& loops, std::size_t first, std::size_t count,
                 const Drive& drive) {
-  const Pose motion(exp_rotation({0, 0, 0.05}), {4, -5, 0});
+  const Pose motion(exp_rotation({0, 0, 0.02}), {9, -12, 0});
   for (std::size_t k = first; k < first + count; ++k) {
     const Pose& T_world_i = drive.truth.T_world_segment[loops[k].i];
     loops[k].T_i_j = T_world_i.inverse() * motion * T_world_i * loops[k].T_i_j;

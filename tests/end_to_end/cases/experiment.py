@@ -34,7 +34,7 @@ steps:
 """
 
 
-def rooms(folder, count, length="12m"):
+def rooms(folder, count, length="20m"):
     """Small rooms, each another one."""
     made = [folder / f"rooms_{seed}" for seed in range(1, count + 1)]
     for seed, room in enumerate(made, 1):
@@ -95,7 +95,7 @@ def test_intervals_over_inputs_are_those_of_scipy(folder):
     more = "variants:\n  thin: {set: {log.skip_frames: 4, log.drop_frames: 20 %}}\nreplicates: {count: 2, seed: 5, skip_frames: 3}\n"
     made = outcome(experiment(folder, rooms(folder, 7), more), "--save", folder / "a.json", code=(DONE, WORSE))
     found = computed_once_more(folder / "a.json")
-    assert found["sign-flip over inputs"] >= 3, found
+    assert found["sign-flip over inputs"] >= 2, found
     # And what is not the same is seen.
     number_of(made)["variants"]["thin"]["against"]["interval"][0] *= 0.999
     (folder / "b.json").write_text(json.dumps(made))
@@ -128,7 +128,7 @@ def test_intervals_on_few_inputs_are_those_of_numpy(folder):
 def failing(folder, more=""):
     """Six inputs of which the last is so short that one variant leaves no frame of it."""
     inputs = rooms(folder, 5)
-    plumb("simulate", "rooms", "--seed", 9, "--length", "6m", "-o", folder / "short")
+    plumb("simulate", "rooms", "--seed", 9, "--length", "12m", "-o", folder / "short")
     scans = sum(line.startswith("ROBOTLASER1") for line in (folder / "short/log.clf").read_text().splitlines())
     assert scans >= 3, scans
     return experiment(folder, [*inputs, folder / "short"], f"variants:\n  late: {{set: {{log.skip_frames: {scans - 1}}}}}\n" + more)
@@ -191,7 +191,7 @@ def test_a_baseline_is_a_gate(folder):
     # What cannot be held against it is no verdict.
     refused(plumb("compare", file, "--baseline", folder / "then.json", "--primary", "match_rmse.fine", "--quiet", code=NOTHING), "cannot be compared", "error.fine.ate")
     refused(plumb("compare", file, "--baseline", folder / "then.json", "--replicates", 3, "--quiet", code=NOTHING), "replicates")
-    other = experiment(folder, rooms(folder, 1, length="5m"), "replicates: {count: 2, drop_frames: 2 %, skip_frames: 2}\n", name="other")
+    other = experiment(folder, rooms(folder, 1, length="20m"), "replicates: {count: 2, drop_frames: 2 %, skip_frames: 2}\n", name="other")
     refused(plumb("compare", other, "--baseline", folder / "then.json", "--quiet", code=NOTHING), "no input")
     (folder / "odd.json").write_text("{}")
     refused(plumb("compare", file, "--baseline", folder / "odd.json", "--quiet", code=WRONG_INPUT), "odd.json: is not what plumb compare writes")

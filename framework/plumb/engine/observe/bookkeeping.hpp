@@ -22,7 +22,7 @@ struct StepTime {
               remembered = 0;  ///< made; taken from what the run remembers or from the store
   double cpu_seconds = 0;      ///< of its own, without the steps that it called for
   std::size_t peak_bytes = 0;  ///< the most that was held while it ran, by the step or by others
-  std::size_t earlier = 0;     ///< of `remembered`: what an earlier run had made
+  std::size_t earlier = 0;     ///< results that an earlier run had made, each counted once
 };
 
 /// What a step counted, over all its items and passes.
