@@ -33,10 +33,16 @@ std::vector<float> half_turned(const std::vector<float>& values) {
   return result;
 }
 
+bool no_extent(const Cloud& cloud) {
+  const Box box = box_of(cloud);
+  return !((box.high - box.low).norm() > 0);
+}
+
 }  // namespace
 
 std::optional<std::vector<float>> gasd(const Cloud& cloud, Interpolation interpolation) {
-  if (cloud.size() < 3) return std::nullopt;
+  // PCL divides by the distance of the farthest point from the centroid.
+  if (cloud.size() < 3 || no_extent(cloud)) return std::nullopt;
   const auto points = pcl::points_of(cloud);
   ::pcl::GASDEstimation<::pcl::PointXYZ, ::pcl::GASDSignature512> estimate(
       Eigen::Vector3f::UnitZ(), gasd_side / 2, 1,

@@ -61,32 +61,6 @@ TEST(Iss, IsWhatItsDefinitionGives) {
   EXPECT_EQ(kept, plainly(cloud, wide));
 }
 
-TEST(Iss, FindsTheCornersOfABox) {
-  Random random(1);
-  Cloud cloud;
-  const auto uniform = [&](double high) { return static_cast<float>(high * random.uniform()); };
-  for (int k = 0; k < 6000; ++k) {
-    const int axis = k % 3;
-    Eigen::Vector3f p;
-    p[axis] = k % 2 ? 4.f : 0.f;
-    p[(axis + 1) % 3] = uniform(4), p[(axis + 2) % 3] = uniform(4);
-    for (int c = 0; c < 3; ++c) p[c] += uniform(0.02);
-    cloud.add(p);
-  }
-  IssOptions options = wide;
-  options.salient_radius = 0.8, options.non_max_radius = 0.6;
-  // Two eigenvalues of a right-angled corner are the same but for the noise.
-  options.gamma_21 = options.gamma_32 = 1;
-  const auto kept = iss(cloud, options);
-  EXPECT_LT(kept.size(), 80u);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3f at(corner & 1 ? 4 : 0, corner & 2 ? 4 : 0, corner & 4 ? 4 : 0);
-    EXPECT_TRUE(std::ranges::any_of(kept, [&](std::uint32_t k) {
-      return (cloud.point(k) - at).norm() < 0.6f;
-    })) << at.transpose();
-  }
-}
-
 TEST(Iss, FindsTheSamePointsInAMovedCloud) {
   const Cloud cloud = street_corner(4000, 2);
   const Cloud elsewhere = pcl::moved(cloud, Pose(exp_rotation({0.3, -0.2, 1.9}), {15, -30, 4}));

@@ -159,23 +159,18 @@ class Judge {
     }
   }
 
-  /// Of the loops that were dropped and disagree with `loop`, the most that agree with one of them.
+  /// The dropped loops that disagree with `loop` and have another dropped one on their side.
   std::vector<std::uint32_t> rivals(std::uint32_t loop, const std::vector<Neighbours>& of) const {
-    const auto& against = of[loop].disagree;
-    std::vector<std::uint32_t> most;
-    for (const std::uint32_t first : against) {
-      if (verdicts_[first] != LoopVerdict::against_loops) continue;
-      std::vector<std::uint32_t> group{first};
-      for (const std::uint32_t other : of[first].agree)
-        if (verdicts_[other] == LoopVerdict::against_loops &&
-            std::ranges::find(against, other) != against.end())
-          group.push_back(other);
-      if (group.size() > most.size()) most = std::move(group);
-    }
-    return most;
+    std::vector<std::uint32_t> rivals;
+    for (const std::uint32_t other : of[loop].disagree)
+      if (verdicts_[other] == LoopVerdict::against_loops &&
+          count(of[other].agree, LoopVerdict::against_loops) > 0)
+        rivals.push_back(other);
+    return rivals;
   }
 
-  /// Judged by what was kept and dropped before, so that no order matters.
+  /// Judged by what was kept and dropped before, so that no order matters. Then those of which half
+  /// of the loops that agree with them are undecided.
   void drop_undecided(const std::vector<Neighbours>& of) {
     std::vector<std::uint32_t> undecided;
     for (std::uint32_t k = 0; k < loops_.size(); ++k) {
@@ -188,7 +183,16 @@ class Judge {
       undecided.push_back(k);
       undecided.insert(undecided.end(), against.begin(), against.end());
     }
-    for (const std::uint32_t k : undecided) verdicts_[k] = LoopVerdict::undecided;
+    while (!undecided.empty()) {
+      for (const std::uint32_t k : undecided) verdicts_[k] = LoopVerdict::undecided;
+      undecided.clear();
+      for (std::uint32_t k = 0; k < loops_.size(); ++k) {
+        if (verdicts_[k] != LoopVerdict::kept) continue;
+        const int doubtful = count(of[k].agree, LoopVerdict::undecided);
+        if (doubtful > 0 && doubtful >= count(of[k].agree, LoopVerdict::kept))
+          undecided.push_back(k);
+      }
+    }
   }
 
   const std::vector<Loop>& loops_;

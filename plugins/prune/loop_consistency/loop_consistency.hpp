@@ -34,8 +34,9 @@ struct ConsistencyOptions {
   double max_deviation = 3.5;  ///< standard deviations within which things agree
   double min_agreement =
       0.6;  ///< share of the other loops, of those that can tell, that must agree with a loop
-  double max_rival_share = 0.5;  ///< loops that agree with each other against a kept one, as a
-                                 ///< share of those that agree with it: above it none is believed
+  double max_rival_share = 0.5;  ///< rejected loops that contradict a kept one and agree with
+                                 ///< another, as a share of those that agree with it: above it
+                                 ///< none is kept
   double max_path_separation =
       150;  ///< [m] path at either end within which two loops can tell something of each other
   double max_unconfirmed_sigma = 3;  ///< [m] a loop that no other can confirm is kept where the

@@ -82,8 +82,8 @@ struct PruneLoopConsistency : WholeStep {
         .unit("%")
         .range(0, 10)
         .doc(
-            "loops that agree with each other against a kept one, as a share of those that agree "
-            "with it, above which neither side is kept");
+            "rejected loops that contradict a kept one and agree with another, as a share of those "
+            "that agree with it, above which neither side is kept");
     is.param("max_path_separation", &Params::max_path_separation)
         .unit("m")
         .range(0, 1e6)

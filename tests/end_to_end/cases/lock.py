@@ -170,7 +170,7 @@ def test_it_takes_no_pipeline_beside_it(folder):
 
 
 def test_every_pipeline_that_is_shipped_reads_back_from_its_resolved_text(folder):
-    bare = lambda text: re.sub(r" +#.*", "", text)
+    bare = lambda text: [line for line in re.sub(r"(^| +)#.*", "", text, flags=re.M).splitlines() if line]
     for file in shipped_pipelines():
         estimate = ["--set", "estimate=."] if "estimate:" in file.read_text() else []
         first = plumb("resolve", file, "--set", "input=.", *estimate).out

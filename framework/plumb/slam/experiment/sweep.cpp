@@ -135,7 +135,7 @@ Axis axis_of(const std::string& option) {
   const auto equals = option.find('=');
   Axis axis{option.substr(0, equals), {place, 0, 0}, {}};
   if (equals == std::string::npos || equals == 0)
-    throw Error(place + ": expected NAME=VALUE,VALUE, as in voxel_size=0.2m,0.3m");
+    throw Error(place + ": expected NAME=VALUE,VALUE, as in radius=0.2m,0.3m");
   for (const std::string& part : outer_parts(option.substr(equals + 1))) {
     if (part.empty()) throw Error(place + ": a value is missing; leave out the comma, or give one");
     axis.values.push_back(value_of_option(part, axis.origin));

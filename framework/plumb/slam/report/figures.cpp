@@ -35,21 +35,23 @@ bool is_chosen(const PlannedStep& step, const std::string& number, const Compare
   return stages.empty() || is_of_stage(number, stages.back());
 }
 
-/// Of the match RMSE of the last stage, whose edges are known: their mean, by segment.
-SegmentSums sums_of_edges(const PlannedStep& step, const Metrics& metrics, const Number& number) {
-  if (step.description->name != "measure.match_rmse") return {};
-  const auto stages = stages_of(step);
-  if (stages.empty() || number.name != (stages.back().empty() ? "rmse" : stages.back())) return {};
+/// Of a number that is the mean of its edges' residuals, as the match RMSE of the last stage is:
+/// their sums by segment. Empty for any other.
+SegmentSums sums_of_edges(const Metrics& metrics, const Number& number) {
   SegmentSums sums;
+  double sum = 0, count = 0;
   for (const EdgeRecord& edge : metrics.edges) {
     if (edge.status == "no matches") continue;
+    sum += edge.residual, ++count;
     for (const std::size_t segment : {edge.i, edge.j}) {
       if (segment >= sums.size()) sums.sum.resize(segment + 1), sums.count.resize(segment + 1);
       sums.sum[segment] += edge.residual;
       ++sums.count[segment];
     }
   }
-  return sums;
+  const bool is_their_mean =
+      count > 0 && std::abs(sum / count - number.value) <= 1e-9 * std::abs(number.value);
+  return is_their_mean ? sums : SegmentSums();
 }
 
 /// The CPU time of some steps of a run.
@@ -111,7 +113,7 @@ std::vector<Figure> figures_of(const Plan& plan, const RunResult& result,
     for (const Number& number : made.metrics->numbers)
       if (std::isfinite(number.value) && is_chosen(step, number.name, chosen))
         figures.push_back({{made.path + "." + number.name, number.value, number.unit},
-                           sums_of_edges(step, *made.metrics, number)});
+                           sums_of_edges(*made.metrics, number)});
   }
   add_times(figures, plan, result, chosen);
   return figures;

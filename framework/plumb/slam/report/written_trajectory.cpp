@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
+#include "plumb/slam/segment.hpp"
+#include "plumb/slam/values.hpp"
 
 namespace plumb {
 namespace {
@@ -32,21 +35,31 @@ bool same_source(const Wire& a, const Wire& b) {
   return a.step == b.step && a.output == b.output && a.repeat == b.repeat && a.carry == b.carry;
 }
 
-bool is(const PlannedStep& step, const char* name) { return step.description->name == name; }
+/// Whether a trajectory, or several, is what the step is given first.
+bool takes_trajectory(const PlannedStep& step) {
+  return !step.inputs.empty() && !step.inputs[0].empty() &&
+         step.description->inputs[0].type == &type_of<Trajectory>();
+}
 
-/// The last of what a measure.trajectory is wired to; null for none.
+bool gives(const PlannedStep& step, const Type& type) {
+  return std::ranges::find(step.description->outputs, &type, &OutputDescription::type) !=
+         step.description->outputs.end();
+}
+
+/// The last trajectory that a step measures by a truth, also over stretches of path; null for none.
 const Wire* last_measured(const PlannedStep& step) {
-  if (!is(step, "measure.trajectory") || step.inputs.empty() || step.inputs[0].empty())
-    return nullptr;
-  return &step.inputs[0].back();
+  const bool measures = takes_trajectory(step) && gives(step, type_of<Metrics>()) &&
+                        parameter_of(step, "truth") && parameter_of(step, "delta");
+  return measures ? &step.inputs[0].back() : nullptr;
 }
 
 const PlannedStep* writer_of(const Plan& plan, const Wire* measured) {
   const PlannedStep* only = nullptr;
   int writers = 0;
   for (const PlannedStep& step : plan.steps) {
-    if (!is(step, "write.trajectory") || text_in(step, "format") != "tum") continue;
-    if (step.inputs.empty() || step.inputs[0].empty()) continue;
+    if (!takes_trajectory(step) || !gives(step, type_of<Document>()) ||
+        text_in(step, "format") != "tum")
+      continue;
     if (measured && same_source(step.inputs[0][0], *measured)) return &step;
     only = &step, ++writers;
   }
@@ -55,7 +68,9 @@ const PlannedStep* writer_of(const Plan& plan, const Wire* measured) {
 
 void note_frames(const Plan& plan, WrittenTrajectory& to) {
   for (const PlannedStep& step : plan.steps) {
-    if (!is(step, "source.sequence") || text_in(step, "coordinates") != "sensor") continue;
+    if (!gives(step, type_of<Frame>()) || !gives(step, type_of<Trajectory>()) ||
+        text_in(step, "coordinates") != "sensor")
+      continue;
     to.frames = text_in(step, "path");
     const std::string odometry = text_in(step, "trajectory");
     to.odometry = odometry.empty() ? to.frames / "odometry.tum" : std::filesystem::path(odometry);
