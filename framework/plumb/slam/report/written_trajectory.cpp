@@ -5,8 +5,7 @@
 #include "plumb/data/document.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
-#include "plumb/slam/segment.hpp"
-#include "plumb/slam/values.hpp"
+#include "plumb/slam/types.hpp"
 
 namespace plumb {
 namespace {
