@@ -34,7 +34,7 @@ steps:
 """
 
 
-def rooms(folder, count, length="20m"):
+def rooms(folder, count, length="12m"):
     """Small rooms, each another one."""
     made = [folder / f"rooms_{seed}" for seed in range(1, count + 1)]
     for seed, room in enumerate(made, 1):
