@@ -14,7 +14,7 @@ remove: [map]
 add:
   worsened: {{use: test.worse_poses, from: straight, with: {{truth: $truth}}}}
 replace:
-  error: {{use: measure.trajectory, from: {{trajectories: {{fine: worsened}}}}, with: {{truth: $truth}}}}
+  error: {{use: measure.trajectory, from: {{trajectories: {{drift: after_drift, coarse: after_coarse, fine: worsened}}}}, with: {{truth: $truth}}}}
   trajectory: {{use: write.trajectory, from: worsened}}
 """
 VOXELS = ("0.3m", "0.5m")
