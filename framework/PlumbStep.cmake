@@ -1,9 +1,10 @@
-# plumb_add_shared(NAME [LIBRARIES ...])
+# plumb_add_shared(NAME [LIBRARIES ...] [PORTABLE])
 #
 # Builds plumb_shared_NAME, kernels that several steps share, from the .cpp files of the calling folder plugins/shared/NAME (all but *_test.cpp), and
 # its test from *_test.cpp. Who links it includes "shared/NAME/FILE.hpp". Where there are headers alone, it is they that are linked.
+# PORTABLE: compiled for any x86-64, for steps that are.
 function(plumb_add_shared name)
-  cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "PORTABLE" "" "LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
@@ -13,9 +14,13 @@ function(plumb_add_shared name)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/plugins)
     target_link_libraries(${target} PUBLIC plumb_slam ${arg_LIBRARIES})
-    target_link_libraries(${target} PRIVATE plumb_kernel)
     target_compile_options(${target} PRIVATE ${PLUMB_WARNINGS})
-    plumb_precompiled_step(${target})
+    if(arg_PORTABLE)
+      plumb_precompiled_portable_step(${target})
+    else()
+      target_link_libraries(${target} PRIVATE plumb_kernel)
+      plumb_precompiled_step(${target})
+    endif()
     plumb_unity(${target})
   else()
     add_library(${target} INTERFACE)
@@ -25,8 +30,13 @@ function(plumb_add_shared name)
 
   if(PLUMB_TESTS AND tests)
     add_executable(test_shared_${name} ${tests})
-    plumb_precompiled_test(test_shared_${name})
-    target_link_libraries(test_shared_${name} PRIVATE ${target} plumb_arch GTest::gmock GTest::gtest_main)
+    if(arg_PORTABLE)
+      plumb_precompiled_portable_test(test_shared_${name})
+    else()
+      target_link_libraries(test_shared_${name} PRIVATE plumb_arch)
+      plumb_precompiled_test(test_shared_${name})
+    endif()
+    target_link_libraries(test_shared_${name} PRIVATE ${target} GTest::gmock GTest::gtest_main)
     gtest_discover_tests(test_shared_${name} TEST_PREFIX "shared.${name}." DISCOVERY_MODE PRE_TEST)
   endif()
 endfunction()
@@ -48,7 +58,7 @@ function(plumb_close_folder folder)
 endfunction()
 
 function(plumb_add_step step)
-  cmake_parse_arguments(arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;PORTABLE" "LICENCE;LICENCE_REASON" "SOURCES;TESTS;LIBRARIES;TEST_LIBRARIES")
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
     list(FILTER arg_SOURCES EXCLUDE REGEX "_test\\.cpp$")
@@ -87,7 +97,7 @@ function(plumb_add_step step)
     add_custom_command(TARGET step_${id} POST_BUILD
                        COMMAND chmod go-w $<TARGET_FILE:step_${id}>
                        COMMAND plumb_manifest $<TARGET_FILE:step_${id}> ${PLUMB_MODULE_DIR}/${step}.json
-                               ${arg_LICENCE} ${arg_LICENCE_REASON}
+                               ${arg_LICENCE} "${arg_LICENCE_REASON}"
                        COMMAND chmod go-w ${PLUMB_MODULE_DIR}/${step}.json
                        COMMENT "Manifest of ${step}" VERBATIM)
     add_dependencies(step_${id} plumb_manifest)
@@ -110,4 +120,29 @@ function(plumb_add_step step)
     target_compile_definitions(test_${id} PRIVATE PLUMB_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     gtest_discover_tests(test_${id} TEST_PREFIX "${step}." DISCOVERY_MODE PRE_TEST)
   endif()
+endfunction()
+
+# plumb_leave_out(STEP LIBRARY PACKAGE): a step that is not built because LIBRARY was not found, which Debian's PACKAGE brings. plumb_say_left_out() says so in
+# one line for each library, and writes it beside the modules (plugin/left_out.hpp): `plumb doctor` lists it, and who names such a step is told.
+function(plumb_leave_out step library package)
+  set_property(GLOBAL APPEND_STRING PROPERTY PLUMB_LEFT_OUT "${step}: ${library} was not found; install ${package} and build again\n")
+  set_property(GLOBAL APPEND PROPERTY "PLUMB_STEPS_WITHOUT_${library}" ${step})
+  get_property(known GLOBAL PROPERTY PLUMB_LIBRARIES_MISSED)
+  if(NOT library IN_LIST known)
+    set_property(GLOBAL APPEND PROPERTY PLUMB_LIBRARIES_MISSED "${library}")
+  endif()
+endfunction()
+
+function(plumb_say_left_out)
+  get_property(libraries GLOBAL PROPERTY PLUMB_LIBRARIES_MISSED)
+  foreach(library IN LISTS libraries)
+    get_property(steps GLOBAL PROPERTY "PLUMB_STEPS_WITHOUT_${library}")
+    list(JOIN steps ", " steps)
+    message(STATUS "${library} was not found: left out are ${steps}")
+  endforeach()
+  get_property(lines GLOBAL PROPERTY PLUMB_LEFT_OUT)
+  set(file ${PLUMB_MODULE_DIR}/left_out.txt)
+  file(WRITE ${file} "${lines}")  # empty where nothing is left out: an installation over an earlier one then says so too
+  file(CHMOD ${file} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  install(FILES ${file} DESTINATION lib/plumb)
 endfunction()

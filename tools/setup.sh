@@ -4,10 +4,10 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="${PLUMB_BUILD:-$root/build}"
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libyaml-cpp-dev libtbb-dev nlohmann-json3-dev
-  libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libceres-dev libflann-dev libnanoflann-dev
+  libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libceres-dev libnanoflann-dev
   libsqlite3-dev libbz2-dev zlib1g-dev libpng-dev)
-test_packages=(libpcl-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-  python3-numpy python3-scipy python3-yaml slurm-wlm munge clang-format clang-tidy)
+test_packages=(libpcl-dev libflann-dev libcgal-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
+  python3 python3-jsonschema python3-numpy python3-scipy python3-yaml slurm-wlm munge clang-format clang-tidy)
 
 fuzz_packages=(clang libclang-rt-14-dev)
 build_targets=()  # all of them

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "../../plugins/describe/fpfh/fpfh.hpp"
-#include "../../plugins/describe/fpfh/key_points.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/step.hpp"
 #include "scene.hpp"
+#include "shared/keypoints/one_per_voxel.hpp"
 #ifdef PLUMB_HAS_PCL
 #include "pcl_twins.hpp"
 #endif
@@ -22,7 +22,7 @@ double radius_of(const benchmark::State& state) {
 
 std::vector<std::uint32_t> keys_of(const benchmark::State& state, const Cloud& cloud) {
   if (state.range(1) > 0)
-    return describe_fpfh::key_points(cloud, 0.1 * static_cast<double>(state.range(1)));
+    return keypoints::one_per_voxel(cloud, 0.1 * static_cast<double>(state.range(1)));
   std::vector<std::uint32_t> all(cloud.size());
   std::iota(all.begin(), all.end(), 0);
   return all;

@@ -1,14 +1,8 @@
 /// Mutual nearest neighbours of two neighbouring segments' FPFH (33-D), beside comparing all pairs
 /// and beside FLANN's exact tree. The argument is the spacing of keypoints in decimetres.
 
-#include <map>
-
-#include "../../plugins/describe/fpfh/fpfh.hpp"
-#include "../../plugins/describe/fpfh/key_points.hpp"
 #include "../../plugins/match/fpfh_mutual/mutual.hpp"
-#include "plumb/plugin/testing.hpp"
-#include "plumb/slam/step.hpp"
-#include "scene.hpp"
+#include "described.hpp"
 #ifdef PLUMB_HAS_FLANN
 #include <flann/flann.hpp>
 #endif
@@ -16,33 +10,11 @@
 namespace plumb::bench {
 namespace {
 
-constexpr std::size_t bins = 33;
-
-/// The features of both segments, 33 numbers a keypoint.
-struct Ends {
-  std::vector<float> a, b;
-
-  explicit Ends(double leaf) : a(described(0, leaf)), b(described(1, leaf)) {}
-  static std::vector<float> described(std::size_t which, double leaf) {
-    const Cloud& cloud = segment_with_normals(which);
-    TestContext context;
-    return describe_fpfh::fpfh(cloud, describe_fpfh::key_points(cloud, leaf), {}, context)
-        .features.vectors;
-  }
-  static const Ends& of(const benchmark::State& state) {
-    static std::map<std::int64_t, Ends> all;
-    const double leaf = 0.1 * static_cast<double>(state.range(0));
-    return all.try_emplace(state.range(0), leaf).first->second;
-  }
-  void say(benchmark::State& state) const {
-    per(state, "keypoint", static_cast<double>((a.size() + b.size()) / bins));
-  }
-};
-
 void ours(benchmark::State& state) {
-  const Ends& ends = Ends::of(state);
+  const Described& ends = Described::of(state);
   for (auto _ : state)
-    benchmark::DoNotOptimize(match_fpfh_mutual::mutual_nearest(ends.a, ends.b, bins));
+    benchmark::DoNotOptimize(
+        match_fpfh_mutual::mutual_nearest(ends.a.vectors, ends.b.vectors, bins));
   ends.say(state);
 }
 BENCHMARK(ours)
@@ -53,9 +25,10 @@ BENCHMARK(ours)
     ->Unit(benchmark::kMillisecond);
 
 void all_pairs(benchmark::State& state) {
-  const Ends& ends = Ends::of(state);
+  const Described& ends = Described::of(state);
   for (auto _ : state)
-    benchmark::DoNotOptimize(match_fpfh_mutual::mutual_nearest_plainly(ends.a, ends.b, bins));
+    benchmark::DoNotOptimize(
+        match_fpfh_mutual::mutual_nearest_plainly(ends.a.vectors, ends.b.vectors, bins));
   ends.say(state);
 }
 BENCHMARK(all_pairs)
@@ -81,10 +54,10 @@ std::vector<std::vector<int>> nearest(const std::vector<float>& of,
 }
 
 void exact_tree(benchmark::State& state) {
-  const Ends& ends = Ends::of(state);
+  const Described& ends = Described::of(state);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(nearest(ends.a, ends.b));
-    benchmark::DoNotOptimize(nearest(ends.b, ends.a));
+    benchmark::DoNotOptimize(nearest(ends.a.vectors, ends.b.vectors));
+    benchmark::DoNotOptimize(nearest(ends.b.vectors, ends.a.vectors));
   }
   ends.say(state);
 }

@@ -1,12 +1,17 @@
-/// Keeping the pairs that agree: K-means beside RANSAC, per pair of an edge with 400 pairs. The
-/// argument is the share of right pairs in percent. "right" is the share in what is kept.
+/// Keeping the pairs that agree: K-means beside RANSAC, beside compatible pairs and beside steps
+/// that call PCL, per pair of an edge with 400 pairs. The argument is the share of right pairs in
+/// percent. "right" is the share in what is kept.
 
 #include <algorithm>
 
+#include "../../plugins/prune/consistency/consistency.hpp"
 #include "../../plugins/prune/kmeans/kmeans.hpp"
 #include "../../plugins/prune/kmeans/motion_vectors.hpp"
 #include "../../plugins/prune/ransac/ransac.hpp"
 #include "scene.hpp"
+#ifdef PLUMB_HAS_PCL
+#include "pcl_steps.hpp"
+#endif
 
 namespace plumb::bench {
 namespace {
@@ -31,6 +36,7 @@ Matches planted(const benchmark::State& state) {
   for (std::uint32_t k = 0; k < pairs; ++k) {
     matches.q.push_back(in_box(30));
     matches.p.push_back(drift * matches.q.back() + in_box(k < right(state) ? 0.2f : 5.0f));
+    matches.index_p.push_back(k), matches.index_q.push_back(k / 2);  // two pairs a point of j
   }
   return matches;
 }
@@ -74,6 +80,51 @@ BENCHMARK(by_ransac)
     ->Arg(15)
     ->Arg(5)
     ->Unit(benchmark::kMicrosecond);
+
+void by_consistency(benchmark::State& state) {
+  const Matches matches = planted(state);
+  std::vector<std::uint32_t> kept;
+  for (auto _ : state) kept = prune_consistency::consistent_pairs(matches, {}).inliers;
+  say(state, kept);
+}
+BENCHMARK(by_consistency)
+    ->Name("prune/consistency")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
+
+#ifdef PLUMB_HAS_PCL
+template <std::vector<std::uint32_t> (*Keep)(const Matches&)>
+void by_pcl(benchmark::State& state) {
+  const Matches matches = planted(state);
+  std::vector<std::uint32_t> kept;
+  for (auto _ : state) kept = Keep(matches);
+  say(state, kept);
+}
+BENCHMARK(by_pcl<twins::geometric_consistency>)
+    ->Name("prune/geometric_consistency")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_pcl<twins::hough>)
+    ->Name("prune/hough")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(by_pcl<twins::one_to_one>)
+    ->Name("prune/one_to_one")
+    ->ArgName("right [%]")
+    ->Arg(40)
+    ->Arg(15)
+    ->Arg(5)
+    ->Unit(benchmark::kMicrosecond);
+#endif
 
 }  // namespace
 }  // namespace plumb::bench

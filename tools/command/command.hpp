@@ -11,7 +11,7 @@ namespace plumb::command {
 
 /// What the program exits with, beside 0; `plumb --help` says what they mean.
 inline constexpr int exit_refused = 1, exit_wrong_command_line = 2, exit_failed = 3,
-                     exit_unsettled = 4;
+                     exit_unsettled = 4, exit_worse = 5, exit_nothing = 6;
 
 /// Thrown by a callback that has said all there is to say: the program exits with `code`.
 struct ExitWith {

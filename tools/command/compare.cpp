@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <iostream>
-#include <set>
+#include <memory>
+#include <optional>
 
 #include "cache_size.hpp"
+#include "command.hpp"
 #include "command_line.hpp"
-#include "console.hpp"
+#include "compared_runs.hpp"
 #include "exit_guard.hpp"
+#include "experiment_options.hpp"
 #include "interrupt.hpp"
-#include "pipeline_options.hpp"
+#include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
-#include "plumb/data/file_name.hpp"
-#include "plumb/engine/preflight.hpp"
-#include "plumb/engine/record/output_folder.hpp"
-#include "plumb/engine/record/quoted.hpp"
-#include "plumb/pipeline/yaml/load.hpp"
-#include "plumb/pipeline/yaml/value.hpp"
-#include "plumb/slam/io/trajectory_text.hpp"
-#include "plumb/slam/report/comparison.hpp"
+#include "plumb/engine/observe/event_file.hpp"
+#include "plumb/slam/experiment/outcome.hpp"
+#include "replaced_file.hpp"
 #include "side_file.hpp"
 #include "store_option.hpp"
 #include "usage.hpp"
@@ -27,320 +25,249 @@ namespace plumb::command {
 namespace {
 
 namespace fs = std::filesystem;
+using experiment::Experiment, experiment::Outcome, experiment::Verdict;
 
 struct Options {
-  fs::path pipeline, output;
-  std::vector<std::string> variants, sets;
-  std::vector<fs::path> inputs;
-  ComparedFigures figures;
+  ExperimentOptions experiment;
+  fs::path output, baseline, events;
+  std::vector<fs::path> save;
+  std::string format = "table";
   unsigned threads = 0;
-  bool quiet = false, json = false;
+  bool quiet = false, json = false, fail_fast = false;
   StoreOption store{.otherwise = "none"};
   CacheSize cache_size;
 };
 
-/// A pipeline with what is laid over it for one input, ready to run.
-struct Run {
-  Plan plan;
-  std::unique_ptr<OutputFolder> folder;  ///< none: nothing is kept
-};
-
-struct Variant {
-  std::string name;
-  fs::path pipeline;
-  std::vector<fs::path> presets;
-  bool alone = false;  ///< a pipeline of its own, which --set does not reach
-};
-
-/// A file that extends nothing is a pipeline of its own, any other is laid over the one that is
-/// compared. One that cannot be read is told later.
-bool stands_alone(const fs::path& file, const fs::path& pipeline) {
-  pipeline::Diagnostics ignored;
-  return pipeline::read_chain(file, pipeline, {}, ignored).links.size() == 1;
+/// The ending of a file says how it is written.
+std::string text_of(const Outcome& outcome, const std::string& format) {
+  if (format == "json") return outcome_json(outcome) + "\n";
+  if (format == "csv") return outcome_csv(outcome);
+  if (format == "svg") return outcome_svg(outcome);
+  return format == "markdown" ? outcome_markdown(outcome) : outcome_table(outcome);
 }
 
-std::vector<Variant> variants_of(const Options& options, const Plan& pipeline) {
-  std::vector<Variant> variants{{pipeline.name, options.pipeline, {}, false}};
-  for (const std::string& option : options.variants) {
-    const auto equals = option.find('=');
-    const std::string name = option.substr(0, equals);
-    if (std::any_of(variants.begin(), variants.end(),
-                    [&](const Variant& v) { return v.name == name; }))
-      throw Error("--variant " + option + ": there is a '" + name + "' already" +
-                  (name == pipeline.name ? ", the pipeline as it is" : "") +
-                  "; give each variant a name of its own");
-    const fs::path file = option.substr(equals + 1);
-    if (stands_alone(file, options.pipeline))
-      variants.push_back({name, file, {}, true});
-    else
-      variants.push_back({name, options.pipeline, {file}, false});
-  }
-  return variants;
+std::string format_of(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  for (const auto& [known, format] : {std::pair<const char*, const char*>{".json", "json"},
+                                      {".csv", "csv"},
+                                      {".md", "markdown"},
+                                      {".svg", "svg"},
+                                      {".txt", "table"}})
+    if (ending == known) return format;
+  throw UsageError(
+      "--save " + file.string() +
+      ": its ending says how it is written, and must be .json, .csv, .md, .svg or .txt");
 }
 
-/// A name for each input, of which no two are the same: what its path ends with.
-std::vector<std::string> names_of(const std::vector<fs::path>& inputs) {
-  std::vector<std::string> names;
-  std::set<std::string> used;
-  for (const fs::path& input : inputs) {
-    fs::path path = fs::absolute(input).lexically_normal();
-    if (path.filename().empty()) path = path.parent_path();
-    std::string name = path.filename().string();
-    for (int k = 2; !used.insert(name).second; ++k)
-      name = path.filename().string() + "_" + std::to_string(k);
-    names.push_back(name);
-  }
-  return names;
+/// What of the experiment's the baseline decides, where nobody says otherwise.
+void take_over(Experiment& experiment, const Outcome& baseline) {
+  if (experiment.primary.empty()) experiment.primary = baseline.rules.primary;
 }
 
-/// Whether the command line sets a parameter itself.
-bool is_set(const Options& options, const std::string& name) {
-  return std::any_of(options.sets.begin(), options.sets.end(),
-                     [&](const std::string& set) { return set.starts_with(name + "="); });
+Outcome outcome_of(const Options& options, const Experiment& experiment, const ComparedRuns& runs) {
+  Outcome outcome;
+  outcome.name = experiment.name;
+  outcome.about = experiment.about;
+  outcome.measured = runs.measured();
+  outcome.replicates = experiment.replicates;
+  outcome.rules.margin = experiment.margin;
+  outcome.rules.higher_is_better = experiment.higher_is_better;
+  outcome.rules.primary = experiment.primary.empty()
+                              ? experiment::usual_primary(numbers_in(outcome.measured))
+                              : experiment.primary;
+  outcome.baseline = options.baseline.string();
+  for (const auto& variant : runs.variants()) outcome.swept.push_back(variant.swept);
+  return outcome;
 }
 
-/// What an input sets: itself, or the log in it; and what lies beside that the pipeline asks for:
-/// the truth, the plan, and as `estimate` what another program of the variant's name made of it,
-/// NAME.tum.
-std::vector<std::string> sets_of(const fs::path& input, const Plan& pipeline,
-                                 const std::string& variant) {
-  const auto declares = [&](const char* name) {
-    return std::any_of(pipeline.settings.begin(), pipeline.settings.end(),
-                       [&](const auto& s) { return s.name == name; });
-  };
-  if (!declares("input"))
-    throw Error(
-        pipeline.files.front() +
-        ": has no parameter 'input' that --input could set; declare one under 'parameters'");
-  if (!fs::exists(input))
-    throw Error("--input " + input.string() +
-                ": there is no such file or folder; give a log, or the folder of a sequence");
-  const auto set = [](const std::string& name, const fs::path& file) {
-    return name + "=" + pipeline::dollars_doubled(file.string());
-  };
-  if (!fs::is_directory(input)) return {set("input", input)};
-  const auto log = input / "log.clf";
-  std::vector<std::string> sets{set("input", fs::exists(log) ? log : input)};
-  for (const auto& [name, file] : {std::pair<const char*, std::string>{"truth", "truth.tum"},
-                                   {"plan", "plan.txt"},
-                                   {"estimate", variant + ".tum"}})
-    if (declares(name) && fs::exists(input / file)) sets.push_back(set(name, input / file));
-  return sets;
+void require_comparable(const std::optional<Outcome>& baseline, const Outcome& outcome) {
+  if (!baseline) return;
+  if (const std::string why = not_comparable(*baseline, outcome); !why.empty())
+    throw NothingMeasured("--baseline " + outcome.baseline + ": cannot be compared with: " + why);
 }
 
-void require_timed(const std::vector<std::string>& timed, const Plan& pipeline) {
-  if (timed == ComparedFigures{}.timed) return;
-  for (const std::string& first : timed)
-    if (std::ranges::none_of(pipeline.steps, [&](const PlannedStep& step) {
-          return step.description->name.starts_with(first);
-        }))
-      throw Error(
-          "--time " + first + ": no step of " + pipeline.files.front() +
-          " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
-}
-
-/// The pipeline's name and those of the inputs become folders', and the former also names what lies
-/// beside an input.
-void require_good_names(const Options& options, const Plan& pipeline,
-                        const std::vector<std::string>& inputs) {
-  if (const std::string fault = fault_of_file_name(pipeline.name); !fault.empty())
-    throw Error(pipeline.files.front() + ": its name " + in_quotes(pipeline.name) +
-                ", of which compare makes a folder, " + fault);
-  if (options.output.empty()) return;
-  for (std::size_t k = 0; k < inputs.size(); ++k)
-    if (const std::string fault = fault_of_file_name(inputs[k]); !fault.empty())
-      throw Error("--input " + options.inputs[k].string() + ": " + in_quotes(inputs[k]) +
-                  ", of which compare makes a folder in -o, " + fault);
-}
-
-void require_different_inputs(const Options& options) {
-  for (std::size_t k = 0; k < options.inputs.size(); ++k)
-    for (std::size_t n = 0; n < k; ++n)
-      if (fs::weakly_canonical(options.inputs[k]) == fs::weakly_canonical(options.inputs[n]))
-        throw Error("--input " + options.inputs[k].string() +
-                    ": is given twice, which would make the confidence look better than it is; "
-                    "leave one out");
-  if (is_set(options, "input"))
-    throw UsageError("--set input=...: --input sets it; leave one of them out");
-}
-
-/// The runs of a variant on all inputs, in their order.
-std::vector<Run> runs_of(const Variant& variant, const Options& options, const Registry& steps) {
-  std::vector<Run> runs;
-  for (const fs::path& input : options.inputs) {
-    const Plan open = read_pipeline(variant.pipeline, {variant.presets, {}, true, false}, steps);
-    auto sets = sets_of(input, open, variant.name);
-    if (!variant.alone) {
-      std::erase_if(sets, [&](const std::string& set) {
-        return is_set(options, set.substr(0, set.find('=')));
-      });
-      sets.insert(sets.end(), options.sets.begin(), options.sets.end());
+void save(const Options& options, const Outcome& outcome, bool& settled) {
+  for (const fs::path& file : options.save) {
+    try {
+      replace_file(file, text_of(outcome, format_of(file)), {}, "--save");
+    } catch (const Error& e) {
+      std::cerr << e.what() << "; all runs are done\n";
+      settled = false;
     }
-    runs.push_back(
-        {read_pipeline(variant.pipeline, {variant.presets, sets, false, true}, steps), nullptr});
-    say_warnings(runs.back().plan);
   }
-  return runs;
 }
 
-/// What all runs share.
-struct Shared {
-  const Options& options;
-  const Registry& steps;
-  Store* store;
-  SizeBound* bound;
-  bool settled = true;  ///< what was put in place is as it should be
-};
-
-/// Makes one run and fills its folder.
-RunResult result_of(Run& run, Shared& shared) {
-  Console console(true, "");
-  RunOptions run_options;
-  run_options.threads = shared.options.threads;
-  run_options.store = shared.store;
-  run_options.store_bound = shared.bound;
-  const RunRecord record = run.folder ? record_of(run.plan, false) : RunRecord();
-  RunResult result = run_plan(run.plan, shared.steps, run_options, console);
-  if (const std::string unsettled = run.folder ? run.folder->fill(record, result) : "";
-      !unsettled.empty()) {
-    std::cerr << "plumb: " << unsettled << "\n";
-    shared.settled = false;
-  }
-  return result;
-}
-
-void compare(const Options& options) {
-  options.store.require_one_meaning();
-  options.cache_size.require_one_meaning(options.store);
-  const Registry steps = installed_steps();
-  const Plan pipeline = read_pipeline(options.pipeline, {{}, options.sets, true, false}, steps);
-  say_warnings(pipeline);
-  const auto variants = variants_of(options, pipeline);
-  const auto input_names = names_of(options.inputs);
-  require_good_names(options, pipeline, input_names);
-  require_different_inputs(options);
-  require_timed(options.figures.timed, pipeline);
-
-  // All that can be refused is refused before the first run.
-  std::vector<std::vector<Run>> runs;
-  std::vector<std::string> variant_names;
-  for (const Variant& variant : variants) {
-    runs.push_back(runs_of(variant, options, steps));
-    variant_names.push_back(variant.name);
-  }
-  const ExitGuard while_loading;
-  for (const auto& of_variant : runs) preflight(of_variant.front().plan, steps);
-  remove_staging_when_interrupted();
-  const auto place = [&](std::size_t v, std::size_t k) {
-    return options.output / variants[v].name / input_names[k];
-  };
-  const auto for_each_place = [&](const auto& act) {
-    for (std::size_t v = 0; v < variants.size() && !options.output.empty(); ++v)
-      for (std::size_t k = 0; k < input_names.size(); ++k) act(v, k);
-  };
-  for_each_place([&](std::size_t v, std::size_t k) { require_apart(options.store, place(v, k)); });
-  const std::unique_ptr<Store> store = options.store.open();
-  for_each_place([&](std::size_t v, std::size_t k) {
-    runs[v][k].folder = std::make_unique<OutputFolder>(place(v, k));
-  });
-
-  const ExitGuard while_running;
-  BoundedCache cache(options.cache_size, store.get());
-  Shared shared{options, steps, store.get(), cache.bound()};
-  std::vector<std::vector<std::vector<Number>>> figures(variants.size());
-  for (std::size_t k = 0; k < input_names.size(); ++k)
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-      Run& run = runs[v][k];
-      try {
-        const RunResult result = result_of(run, shared);
-        figures[v].push_back(figures_of(run.plan, result, options.figures, v == 0));
-        if (!options.quiet)
-          std::cerr << variants[v].name << " on " << input_names[k] << ": "
-                    << io::fixed(result.seconds, 1) << " s\n";
-      } catch (const std::exception& e) {
-        std::cerr << "plumb: variant '" << variants[v].name << "' on " << options.inputs[k].string()
-                  << ": " << e.what() << "\n";
-        throw ExitWith{exit_failed};
+/// The last word on standard error, and the exit code that goes with it.
+int conclusion(const Outcome& outcome, bool settled) {
+  const auto& measured = outcome.measured;
+  const experiment::Judged* primary = outcome.primary();
+  if (outcome.any(Verdict::worse)) {
+    for (const auto& contrast : primary->contrasts)
+      if (contrast.verdict == Verdict::worse) {
+        std::cerr << "plumb: worse: "
+                  << sentence(*primary, contrast, reference_of(outcome), measured.inputs.size())
+                  << "\n";
+        break;
       }
-    }
+    return exit_worse;
+  }
+  if (const std::size_t failures = measured.failures(); failures > 0) {
+    const auto first = std::find_if(measured.cells.begin(), measured.cells.end(),
+                                    [](const auto& cell) { return !cell.failure.empty(); });
+    std::cerr << "plumb: " << failures << " of " << counted(measured.cells.size(), "runs")
+              << " failed, the first by: " << first->failure << "\n";
+    return exit_failed;
+  }
+  if (!primary) {
+    std::cerr << "plumb: nothing was compared: no two "
+              << (outcome.baseline.empty() ? "variants" : "outcomes") << " have the number '"
+              << outcome.rules.primary << "', which decides; name another with --primary\n";
+    return exit_nothing;
+  }
+  if (settled) return 0;
+  std::cerr
+      << "plumb: all runs are done, but not all of their results are as they should be; it is "
+         "said above which\n";
+  return exit_unsettled;
+}
+
+void require_places(const Options& options, const ComparedRuns& runs) {
+  if (options.output.empty()) return;
+  for (const fs::path& place : runs.places(options.output)) {
+    require_apart(options.store, place);
+    require_elsewhere({{"--events", options.events, "events", EventLines::mark}}, place);
+  }
+}
+
+/// Makes the runs and says what they took from the cache.
+void make(const Options& options, ComparedRuns& runs, Store* store) {
+  BoundedCache cache(options.cache_size, store);
+  std::unique_ptr<EventLines> events;
+  if (!options.events.empty()) {
+    begin({"--events", options.events, "events", EventLines::mark});
+    events = std::make_unique<EventLines>(options.events);
+  }
+  RunsOptions all;
+  all.threads = options.threads;
+  all.store = store, all.bound = cache.bound(), all.fresh = options.store.refresh;
+  all.quiet = options.quiet, all.fail_fast = options.fail_fast;
+  all.events = events.get();
+  runs.make(all);
   cache.end(options.quiet);
   if (store) say_faults(*store);
-  const Comparison comparison = plumb::compare(variant_names, input_names, figures);
-  std::cout << (options.json ? comparison_json(comparison) + "\n" : comparison_table(comparison));
-  if (!shared.settled) throw ExitWith{exit_unsettled};
+  if (events)
+    if (const std::string fault = events->fault(); !fault.empty()) std::cerr << fault << "\n";
+  if (const std::size_t stamps = runs.stamps_left_out(); stamps > 0)
+    std::cerr << "errors are taken at the stamps that all variants have: up to "
+              << counted(stamps, "stamps") << " of a trajectory are left out\n";
 }
 
-/// What `--variant` takes; the name becomes a folder's.
-std::string fault_of_variant(const std::string& option) {
-  const auto equals = option.find('=');
-  const std::string name = option.substr(0, equals);
-  if (equals == std::string::npos || equals + 1 == option.size() || name.empty())
-    return "expected NAME=PRESET, as in unimproved=presets/zhang2023_unimproved.yaml, not '" +
-           option + "'";
-  const std::string fault = fault_of_file_name(name);
-  return fault.empty() ? "" : in_quotes(name) + " " + fault;
+int compare(Options& options) {
+  for (const fs::path& file : options.save) format_of(file);
+  if (options.experiment.of_file()) options.store.otherwise.clear();
+  options.store.require_one_meaning();
+  options.cache_size.require_one_meaning(options.store);
+  if (options.store.refresh && options.store.none())
+    throw UsageError("--refresh: makes all anew to keep it, and nothing is kept; give --cache-dir");
+  Experiment experiment = options.experiment.asked();
+  std::optional<Outcome> baseline;
+  if (!options.baseline.empty()) {
+    baseline = experiment::outcome_of_json(options.baseline);
+    take_over(experiment, *baseline);
+  }
+  if (experiment.variants.empty() && experiment.axes.empty() && !baseline)
+    throw UsageError("nothing to compare with: give --variant, --sweep or --baseline");
+  const Registry steps = installed_steps();
+
+  // All that can be refused is refused before the first run.
+  ComparedRuns runs(experiment, steps);
+  const ExitGuard while_loading;
+  runs.preflight_all();
+  remove_staging_when_interrupted();
+  require_places(options, runs);
+  const std::unique_ptr<Store> store = options.store.open();
+  if (!options.output.empty()) runs.keep_in(options.output);
+
+  const ExitGuard while_running;
+  try {
+    if (baseline && !experiment.primary.empty())
+      require_comparable(baseline, outcome_of(options, experiment, runs));
+    make(options, runs, store.get());
+    Outcome outcome = outcome_of(options, experiment, runs);
+    require_comparable(baseline, outcome);
+    outcome.numbers = baseline ? judge_against(baseline->measured, outcome.measured, outcome.rules)
+                               : judge(outcome.measured, outcome.rules);
+    std::cout << text_of(outcome, options.json ? "json" : options.format);
+    bool settled = runs.settled();
+    save(options, outcome, settled);
+    return conclusion(outcome, settled);
+  } catch (const NothingMeasured& e) {
+    std::cerr << "plumb: nothing was measured: " << e.what() << "\n";
+    return exit_nothing;
+  } catch (const FailedFast& e) {
+    std::cerr << "plumb: " << e.what() << "\n";
+    return exit_failed;
+  }
+}
+
+void add_reports(Command command, Options& options) {
+  command.add_option("--format", options.format, "How the result is printed")
+      .one_of({"table", "csv", "json", "markdown"})
+      .capture_default_str();
+  command.add_flag("--json", options.json, "As --format json");
+  command
+      .add_option(
+          "--save", options.save,
+          "Also writes the result to a file .json, .csv, .md, .svg (a plot) or .txt; may be "
+          "given again")
+      .one_value_each();
+  command.add_option("--events", options.events,
+                     "Also write all that happens to this file: a JSON object a line");
+  command.add_flag("--quiet", options.quiet, "No line for each run");
 }
 
 }  // namespace
 
 void add_compare(Command& program) {
   Command command = program.add_subcommand(
-      "compare",
-      "Runs a pipeline and variants of it on the same inputs and compares their numbers");
+      "compare", "Runs a pipeline and variants of it on the same inputs and says which is better");
   auto options = std::make_shared<Options>();
-  command.add_option("PIPELINE", options->pipeline, "A pipeline or a preset (YAML)").required();
-  command
-      .add_option("--variant", options->variants,
-                  "NAME=FILE: the pipeline with that preset, or another pipeline by itself (--set "
-                  "does not reach it); may be given again")
-      .required()
-      .one_value_each()
-      .check(fault_of_variant);
-  command
-      .add_option("--input", options->inputs,
-                  "What the parameter 'input' is set to: a log, or a sequence's folder, of which "
-                  "log.clf, truth.tum and "
-                  "plan.txt are used where they are there; may be given again")
-      .required()
-      .one_value_each();
-  command
-      .add_option("--set", options->sets,
-                  "A parameter, a row or a step's parameter, in all runs of the pipeline and its "
-                  "presets; a '$' in it is written '$$'; may be given again")
-      .one_value_each()
-      .check(fault_of_set);
-  command
-      .add_option("--metric", options->figures.metrics,
-                  "Numbers to compare, as STEP.NUMBER with * and ?; may be given again. Without: "
-                  "those of the steps error, "
-                  "map_error and relation_error, of the last stage that they measure")
-      .one_value_each();
-  command
-      .add_option("--time", options->figures.timed,
-                  "Steps whose time and iterations are compared: how their 'use' begins; may be "
-                  "given again")
-      .one_value_each()
-      .capture_default_str();
+  options->experiment.add_to(command);
+  command.add_option("--baseline", options->baseline,
+                     "A result that --save FILE.json wrote: each variant against what it was then");
   command.add_option("-o,--output", options->output,
-                     "Keeps each run's results in OUTPUT/VARIANT/INPUT");
+                     "Keeps each run's results in OUTPUT/VARIANT/INPUT, of replicates in "
+                     "replicate_N there");
+  command.add_flag("--fail-fast", options->fail_fast, "The first run that fails ends it");
   command
       .add_option("--threads", options->threads, "Threads to use; 0 for as many as the machine has")
       .range(0, 1024)
       .capture_default_str();
   options->store.add_to(command);
+  options->store.add_usage_to(command);
   options->cache_size.add_to(command);
-  command.add_flag("--json", options->json, "One JSON object with every value instead of a table");
-  command.add_flag("--quiet", options->quiet, "No line for each run");
+  add_reports(command, *options);
   command.footer(
-      "The columns are means over the inputs; 'less by' is how much less the pipeline has than the "
-      "variant, with the 95 % confidence\n"
-      "of the inputs' differences. Times are CPU seconds: of those steps, and of all.\n"
-      "Exit 1 when anything is refused before the first run, 3 when a run fails; it is said "
-      "which.\n"
-      "What is taken from a cache counts as no time, so that by itself compare uses none.\n\n"
+      "The first variant is the pipeline as it is. A line says of each other one how much lower or "
+      "higher it is, the 95 % interval,\n"
+      "and the verdict: better, worse, equivalent, not shown, or large but not proven. From six "
+      "inputs on it holds beyond them; of fewer it\n"
+      "is said of these data. A run that fails is counted and shown, and the others go on. An "
+      "experiment's file uses the cache by itself,\n"
+      "so that what is common is made once and a killed one goes on; times of what came from a "
+      "cache are not compared.\n"
+      "Exit 0 when nothing is worse; 1 when anything is refused before the first run; 3 when a run "
+      "failed; 5 when a variant is worse in the\n"
+      "number that decides; 6 when nothing could be measured or compared. Of several the first of "
+      "5, 3, 6.\n\n"
       "  plumb compare pipelines/zhang2023.yaml --variant "
-      "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2");
-  command.callback([options] { compare(*options); });
+      "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2\n"
+      "  plumb compare pipelines/plumb.yaml --sweep voxel_size=0.3m,0.4m --input DIR --replicates "
+      "3\n"
+      "  plumb compare pipelines/experiments/unimproved.yaml --input DIR --save result.json");
+  command.callback([options] {
+    if (const int code = compare(*options); code != 0) throw ExitWith{code};
+  });
 }
 
 }  // namespace plumb::command

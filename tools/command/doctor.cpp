@@ -1,16 +1,18 @@
-/// plumb doctor: what was found where, what was refused and why. Each module is loaded in a process
-/// of its own.
+/// plumb doctor: what was found where, what was refused and why, what the build left out. Each
+/// module is loaded in a process of its own.
 
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "command.hpp"
 #include "command_line.hpp"
 #include "plumb/data/counted.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
 
 namespace plumb::command {
 namespace {
@@ -43,11 +45,20 @@ std::string trial(const std::string& file) {
   return said;
 }
 
+/// A line for each reason.
+void print_left_out(const StepsLeftOut& steps) {
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const auto& [step, why] : steps) by_reason[why].push_back(step);
+  for (const auto& [why, names] : by_reason)
+    std::cout << "left out of this build: " << pipeline::joined(names) << ": " << why << "\n";
+}
+
 }  // namespace
 
 void add_doctor(Command& program) {
   Command command = program.add_subcommand(
-      "doctor", "Says what modules were found where, and what was refused and why");
+      "doctor",
+      "Says what modules were found where, what was refused and why, and what the build left out");
   command.footer("Exit 1 when anything was refused.");
   command.callback([] {
     const Registry steps = installed_steps();
@@ -70,6 +81,7 @@ void add_doctor(Command& program) {
               << counted(modules.size(), "modules") << "; " << good << " load\n";
     for (const Refusal& refusal : refused)
       std::cout << "refused: " << refusal.file.string() << "\n  " << refusal.why << "\n";
+    print_left_out(steps.left_out());
     if (!refused.empty()) throw ExitWith{1};
   });
 }

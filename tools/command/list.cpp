@@ -105,6 +105,8 @@ void add_inspect(Command& program) {
       std::vector<std::string> names;
       for (const StepDescription* known : steps.all()) names.push_back(known->name);
       const auto now = shipped_former_names().steps.find(*name);
+      if (const auto left = steps.left_out().find(*name); left != steps.left_out().end())
+        throw Error("the step '" + *name + "' is not in this build: " + left->second + ".");
       const std::string close = pipeline::nearest(*name, names);
       throw Error("there is no step '" + *name + "'." +
                   (now != shipped_former_names().steps.end()

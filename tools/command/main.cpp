@@ -86,7 +86,8 @@ void set_up(plumb::command::Program& program) {
       "2 the command line is wrong: an option, its value, or two that do not go together;\n"
       "3 a step refused its input or failed while running, or the results could not be written;\n"
       "4 done and the results in place, but standard output or the disk reported an error at the "
-      "end, which is printed.");
+      "end, which is printed;\n"
+      "5, 6 (compare only) a variant is worse; nothing could be measured or compared.");
   command.require_subcommand(1, 1);
   command.fallthrough();  // what stands below serves behind the sub-command as well
   command

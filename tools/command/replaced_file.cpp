@@ -65,20 +65,35 @@ class Beside {
   bool in_place_ = false;
 };
 
+using Status = struct stat;
+
+/// Whose a file is that is made without a word of its permissions, and what may be done with it.
+Status of_new_file() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  Status status{};
+  status.st_uid = geteuid(), status.st_gid = getegid();
+  status.st_mode = 0666 & ~mask;
+  return status;
+}
+
 }  // namespace
 
-void replace_file(const fs::path& file, const std::string& text, const fs::path& like) {
+void replace_file(const fs::path& file, const std::string& text, const fs::path& like,
+                  const std::string& option) {
   std::error_code error;
   fs::path place = fs::weakly_canonical(fs::absolute(file), error);
   if (error) place = fs::absolute(file);
   if (const std::string other = io::other_than_file(place); !other.empty())
-    throw Error(file.string() + ": is " + other + "; name a file with -o");
+    throw Error(file.string() + ": is " + other + "; name a file with " + option);
   struct stat status {};
   const bool there = stat(place.c_str(), &status) == 0;
   if (there && access(place.c_str(), W_OK) != 0)
     throw Error(file.string() + ": may not be written; change its permissions, or name another " +
-                "file with -o");
-  if (!there && stat(like.c_str(), &status) != 0)
+                "file with " + option);
+  if (!there && like.empty())
+    status = of_new_file();
+  else if (!there && stat(like.c_str(), &status) != 0)
     throw Error(like.string() + ": is gone; nothing was written");
   Beside beside(place);
   beside.write(text, status);

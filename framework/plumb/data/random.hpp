@@ -26,4 +26,10 @@ class Random {
   std::uint64_t state_;
 };
 
+/// Another seed for each `number`; for 0 the same, so that a parameter whose default is 0 changes
+/// nothing until it is set.
+inline std::uint64_t reseeded(std::uint64_t seed, std::uint64_t number) {
+  return number == 0 ? seed : seed ^ Random(number).next();
+}
+
 }  // namespace plumb

@@ -43,9 +43,18 @@ TEST(Mistakes, InWires) {
 }
 
 TEST(Mistakes, InWiresThatFitInMoreThanOneWay) {
-  const std::string more = cascade + "  extra: {use: measure.match_rmse, from: ranges.poses}\n";
-  EXPECT_THAT(told(more), HasSubstr("'ranges.poses' fits in more than one way."));
-  EXPECT_THAT(told(more), HasSubstr("{poses: ranges.poses} or {pairs: ranges.poses}"));
+  const std::string more = cascade + "  extra: {use: register.icp, from: segments}\n";
+  EXPECT_THAT(told(more), HasSubstr("'segments' fits in more than one way."));
+  EXPECT_THAT(told(more), HasSubstr("{targets: segments} or {sources: segments}"));
+}
+
+TEST(Mistakes, InWiresAreNoneWhereOneFitsWhatAStepNeedsAndWhatItMayBeGiven) {
+  const std::string all =
+      told(cascade + "  extra: {use: measure.match_rmse, from: ranges.poses}\n");
+  EXPECT_THAT(all, HasSubstr("its input 'edges' is not wired"));
+  EXPECT_THAT(all, HasSubstr("its input 'segments' is not wired"));
+  EXPECT_THAT(all, testing::Not(HasSubstr("'poses' is not wired")));
+  EXPECT_THAT(all, testing::Not(HasSubstr("more than one way")));
 }
 
 TEST(Mistakes, InItemKinds) {

@@ -43,6 +43,30 @@ TEST(Mistakes, OfNamingFilesThatAreNotThere) {
   EXPECT_THAT(in_set, HasSubstr("Asked for at " + place + "/a.yaml:8:3."));
 }
 
+TEST(Mistakes, OfNamingAStepThatTheBuildLeftOut) {
+  namespace fs = std::filesystem;
+  const test::Folder folder;
+  const fs::path modules = folder.path() / "modules";
+  const fs::path file = folder.write("modules/left_out.txt",
+                                     "describe.vfh: PCL was not found; install libpcl-dev and "
+                                     "build again\n");
+  fs::permissions(modules, static_cast<fs::perms>(0755));
+  fs::permissions(file, static_cast<fs::perms>(0644));
+  Registry registry = Registry::scan({modules});
+  test::add_cloud_steps(registry);
+  test::add_graph_steps(registry);
+  const fs::path pipeline = folder.write("a.yaml", with("use: describe.fpfh", "use: describe.vfh"));
+  try {
+    read_pipeline(pipeline, {{}, {"input=data"}, false}, registry);
+    FAIL();
+  } catch (const PipelineError& error) {
+    EXPECT_EQ(error.diagnostics().size(), 1u);
+    EXPECT_THAT(error.what(),
+                HasSubstr("a.yaml:13:19: step 'fpfh': 'describe.vfh' is not in this build: PCL "
+                          "was not found; install libpcl-dev and build again.\n"));
+  }
+}
+
 TEST(Mistakes, OfFilesThatAreNotThere) {
   try {
     read_pipeline("no/such.yaml", {}, test::registry());
@@ -59,6 +83,8 @@ TEST(Mistakes, OfTakingSomethingElseForAPipeline) {
               HasSubstr("a.yaml' is a JSON Schema, not a pipeline."));
   EXPECT_THAT(told("# A run of Plumb: what made the files beside this one.\nplumb: 0.1\n"),
               HasSubstr("a.yaml' is the record of a run, not a pipeline."));
+  EXPECT_THAT(told("# which?\nexperiment: 1\npipeline: city.yaml\n"),
+              HasSubstr("a.yaml' is an experiment, not a pipeline.\n  Run it: plumb compare "));
   EXPECT_THAT(told("1 2 3 4 0 0 0 1\n"),
               HasSubstr("is a trajectory (TUM), not a pipeline.\n  Give the YAML file"));
   const test::Folder folder;

@@ -66,9 +66,12 @@ Registry Registry::scan(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) try {
       if (const std::string fault = fault_of_folder(folder); !fault.empty()) throw Error(fault);
       for (const fs::path& module : modules_in(folder)) registry.take(module);
+      registry.left_out_.merge(left_out_beside(folder));
     } catch (const Error& e) {
       registry.refused_.push_back({folder, e.what()});
     }
+  std::erase_if(registry.left_out_,
+                [&](const auto& step) { return registry.find(step.first) != nullptr; });
   return registry;
 }
 

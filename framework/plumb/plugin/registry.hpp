@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/plugin/left_out.hpp"
 #include "plumb/plugin/licence.hpp"
 #include "plumb/plugin/step.hpp"
 
@@ -40,6 +41,8 @@ class Registry {
   /// Of the module that a step comes from, by its manifest.
   const Licence& licence_of(const StepDescription& step) const;
   const std::vector<Refusal>& refused() const { return refused_; }
+  /// What the builds of these folders left out and no module of them offers.
+  const StepsLeftOut& left_out() const { return left_out_; }
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
   /// The step itself; loads its module. Throws Error when it cannot be loaded, has another ABI
@@ -55,6 +58,7 @@ class Registry {
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, Licence> licences_;  // by module
   std::vector<Refusal> refused_;
+  StepsLeftOut left_out_;
   std::vector<std::filesystem::path> folders_;
 };
 

@@ -46,34 +46,48 @@ PosePairs pair_by_stamp(const Trajectory& estimate, const Trajectory& truth, dou
   return pairs;
 }
 
-AbsoluteError absolute_error(const PosePairs& pairs) {
-  if (pairs.size() == 0) return {unknown, unknown};
+std::vector<double> squared_errors(const PosePairs& pairs) {
   const auto estimate = positions(pairs.estimate), truth = positions(pairs.truth);
   const Pose T_truth_estimate = align(estimate, truth);
+  std::vector<double> squared;
+  for (std::size_t k = 0; k < estimate.size(); ++k)
+    squared.push_back((T_truth_estimate * estimate[k] - truth[k]).squaredNorm());
+  return squared;
+}
+
+AbsoluteError absolute_error(const PosePairs& pairs) {
+  if (pairs.size() == 0) return {unknown, unknown};
   double sum = 0, most = 0;
-  for (std::size_t k = 0; k < estimate.size(); ++k) {
-    const double squared = (T_truth_estimate * estimate[k] - truth[k]).squaredNorm();
+  for (const double squared : squared_errors(pairs)) {
     sum += squared;
     most = std::max(most, squared);
   }
   return {std::sqrt(sum / static_cast<double>(pairs.size())), std::sqrt(most)};
 }
 
-RelativeError relative_error(const PosePairs& pairs, double over) {
+std::vector<RelativeError> relative_errors(const PosePairs& pairs, double over) {
   const auto path = path_of(pairs.truth);
-  RelativeError sum{0, 0};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < path.size(); ++i, ++count) {
+  std::vector<RelativeError> errors;
+  for (std::size_t i = 0; i < path.size(); ++i) {
     const auto j = std::ranges::lower_bound(path, path[i] + over) - path.begin();
     if (j == std::ssize(path)) break;
     const Pose truth = pairs.truth[i].inverse() * pairs.truth[j];
     const Pose estimate = pairs.estimate[i].inverse() * pairs.estimate[j];
     const Pose error = truth.inverse() * estimate;
-    sum.translation += error.translation.norm();
-    sum.rotation += angle(error);
+    errors.push_back({error.translation.norm(), angle(error)});
   }
-  if (count == 0) return {unknown, unknown};
-  const double n = static_cast<double>(count);
+  return errors;
+}
+
+RelativeError relative_error(const PosePairs& pairs, double over) {
+  const auto errors = relative_errors(pairs, over);
+  if (errors.empty()) return {unknown, unknown};
+  RelativeError sum{0, 0};
+  for (const RelativeError& error : errors) {
+    sum.translation += error.translation;
+    sum.rotation += error.rotation;
+  }
+  const double n = static_cast<double>(errors.size());
   return {sum.translation / n, sum.rotation / n};
 }
 

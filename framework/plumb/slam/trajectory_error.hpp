@@ -28,6 +28,9 @@ struct AbsoluteError {
 /// NaN for no pairs. Source: Sturm et al. 2012, as `evo_ape -a` computes it.
 AbsoluteError absolute_error(const PosePairs& pairs);
 
+/// What its rmse is the root of the mean of: of each pair the squared distance [m^2].
+std::vector<double> squared_errors(const PosePairs& pairs);
+
 /// Relative pose error: mean difference of the motions between two poses, over a given length of
 /// the true path.
 struct RelativeError {
@@ -38,6 +41,10 @@ struct RelativeError {
 /// From each pose to the first one at least `over` [m] of true path later. NaN when the path is
 /// shorter than that.
 RelativeError relative_error(const PosePairs& pairs, double over = 10.0);
+
+/// What that is the mean of: of each pose from which the path goes on for long enough, so of the
+/// first ones.
+std::vector<RelativeError> relative_errors(const PosePairs& pairs, double over = 10.0);
 
 /// Path [m] from the first pose to each, the distances added in order.
 std::vector<double> path_of(const std::vector<Pose>& poses);

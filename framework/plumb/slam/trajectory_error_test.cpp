@@ -57,6 +57,20 @@ TEST(TrajectoryError, OfASteadyTurnIsItsAngleOverTheLength) {
   EXPECT_NEAR(absolute_error(pair_by_stamp(turning, truth)).max, 0, 1e-9);
 }
 
+TEST(TrajectoryError, IsMadeOfTheErrorsOfItsPairs) {
+  Trajectory estimate = straight(30);
+  for (std::size_t k = 0; k < 30; ++k)
+    estimate.T_world_frame[k].translation.y() = 0.01 * static_cast<double>(k * k % 7);
+  const auto pairs = pair_by_stamp(estimate, straight(30));
+  double squares = 0, translation = 0;
+  for (const double squared : squared_errors(pairs)) squares += squared;
+  EXPECT_DOUBLE_EQ(std::sqrt(squares / 30), absolute_error(pairs).rmse);
+  const auto relative = relative_errors(pairs);
+  ASSERT_EQ(relative.size(), 20u);  // of 30 m the last 10 have no pose 10 m on
+  for (const RelativeError& error : relative) translation += error.translation;
+  EXPECT_DOUBLE_EQ(translation / 20, relative_error(pairs).translation);
+}
+
 TEST(TrajectoryError, PairsOnlyStampsWithinTheTolerance) {
   const Trajectory truth = straight(10);
   Trajectory some;

@@ -15,6 +15,7 @@ struct DescribeEsf : SegmentStep {
   };
   struct Params {
     std::uint32_t samples = 20000;
+    std::uint32_t seed = 0;
   };
 
   static void describe(Declaration<DescribeEsf>& is) {
@@ -30,10 +31,11 @@ struct DescribeEsf : SegmentStep {
         .doc(
             "random triples of points; the noise of the descriptor falls with the square root of "
             "their number");
+    is.param("seed", &Params::seed).doc("another draw for each number; 0: by the inputs alone");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
-    if (auto values = esf(in.segment->cloud, params.samples, context.seed()))
+    if (auto values = esf(in.segment->cloud, params.samples, reseeded(context.seed(), params.seed)))
       return {Descriptor{std::move(*values)}};
     context.warn(
         "describe.esf: segment of frames " + std::to_string(in.segment->range.first) + " to " +

@@ -14,17 +14,21 @@ Segment cube() {
 }
 
 TEST(DescribeEsfStep, TakesItsSeedFromTheContext) {
-  const auto described = [](std::uint64_t seed) {
+  const auto described = [](std::uint64_t seed, std::int64_t number = 0) {
     TestContext context(seed);
     return StepUnderTest(*plumb_module())
         .with("segment", cube())
         .set("samples", std::int64_t{2000})
+        .set("seed", number)
         .run<Descriptor>("descriptor", context)
         .values;
   };
   EXPECT_EQ(described(1).size(), 640u);
   EXPECT_EQ(described(1), described(1));
   EXPECT_NE(described(1), described(2));
+  EXPECT_EQ(described(1), described(1, 0));
+  EXPECT_NE(described(1), described(1, 1));
+  EXPECT_NE(described(1, 1), described(1, 2));
 }
 
 TEST(DescribeEsfStep, SaysWhereASegmentHasNoShape) {

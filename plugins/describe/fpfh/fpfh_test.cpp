@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "border.hpp"
-#include "key_points.hpp"
 #include "pair_counts.hpp"
 #include "plumb/plugin/testing.hpp"
 #include "plumb/slam/geometry/pose.hpp"
 #include "plumb/slam/step.hpp"
 #include "scene_for_test.hpp"
+#include "shared/keypoints/one_per_voxel.hpp"
 #include "shared/parallel/loop_testing.hpp"
 
 #ifdef PLUMB_HAS_PCL
@@ -20,6 +20,8 @@
 
 namespace plumb::describe_fpfh {
 namespace {
+
+using keypoints::one_per_voxel;
 
 Oriented point_of(const Support& s, std::uint32_t k) {
   return {s.x[k], s.y[k], s.z[k], s.nx[k], s.ny[k], s.nz[k]};
@@ -133,7 +135,7 @@ TEST(PairCounts, CountMoreNeighboursThanAByteHolds) {
 
 TEST(KeyPoints, AreOneRealPointPerCellNearestToItsMean) {
   const Cloud cloud = street_corner(5000, 3);
-  const auto keys = key_points(cloud, 0.9);
+  const auto keys = one_per_voxel(cloud, 0.9);
   std::map<std::array<int, 3>, std::vector<std::size_t>> cells;
   const auto cell_of = [&](std::size_t k) {
     const Eigen::Vector3d at = (cloud.point(k).cast<double>() / 0.9).array().floor();
@@ -157,7 +159,7 @@ TEST(KeyPoints, AreOneRealPointPerCellNearestToItsMean) {
 TEST(KeyPoints, HaveANormal) {
   Cloud cloud = street_corner(500, 3);
   for (std::size_t k = 0; k < cloud.size(); k += 2) cloud.nx[k] = cloud.ny[k] = cloud.nz[k] = 0;
-  for (const auto key : key_points(cloud, 0.5)) EXPECT_EQ(key % 2, 1u);
+  for (const auto key : one_per_voxel(cloud, 0.5)) EXPECT_EQ(key % 2, 1u);
 }
 
 TEST(LargestGap, IsHalfATurnOnTheEdgeOfAPatchAndSmallInside) {
@@ -209,7 +211,7 @@ TEST(LargestGap, IsHalfATurnOnTheEdgeOfAPatchAndSmallInside) {
 TEST(Fpfh, HasThreePartsThatSumToOneHundred) {
   const Cloud cloud = street_corner(4000, 4);
   TestContext context;
-  const auto result = fpfh(cloud, key_points(cloud, 0.8), within(1.5), context);
+  const auto result = fpfh(cloud, one_per_voxel(cloud, 0.8), within(1.5), context);
   const Features& f = result.features;
   ASSERT_GT(f.size(), 300u);
   EXPECT_EQ(f.normals.size(), f.size());
@@ -230,7 +232,7 @@ TEST(Fpfh, DoesNotChangeWhenTheCloudIsMoved) {
     there.x[k] = p.x(), there.y[k] = p.y(), there.z[k] = p.z();
     there.nx[k] = n.x(), there.ny[k] = n.y(), there.nz[k] = n.z();
   }
-  const auto keys = key_points(here, 0.8);
+  const auto keys = one_per_voxel(here, 0.8);
   TestContext context;
   const auto a = fpfh(here, keys, within(1.5), context),
              b = fpfh(there, keys, within(1.5), context);
@@ -239,7 +241,7 @@ TEST(Fpfh, DoesNotChangeWhenTheCloudIsMoved) {
 
 TEST(Fpfh, IsTheSameForOneAndForFourThreads) {
   const Cloud cloud = street_corner(20000, 6);
-  const auto keys = key_points(cloud, 0.5);
+  const auto keys = one_per_voxel(cloud, 0.5);
   TestContext alone;
   parallel::ThreadedContext together;
   const auto one = fpfh(cloud, keys, within(1), alone),
@@ -250,7 +252,7 @@ TEST(Fpfh, IsTheSameForOneAndForFourThreads) {
 
 TEST(Fpfh, TakesOnlyTheNearestNeighboursWhenTold) {
   const Cloud cloud = street_corner(3000, 7);
-  const auto keys = key_points(cloud, 0.8);
+  const auto keys = one_per_voxel(cloud, 0.8);
   TestContext context;
   const auto all = fpfh(cloud, keys, within(1), context);
   const auto as_many = fpfh(cloud, keys, within(1, 3000), context);
@@ -276,7 +278,7 @@ TEST(Fpfh, LeavesOutPointsWithFewNeighboursOrWithoutNormal) {
 
 TEST(Fpfh, OfAnEmptyCloudIsEmpty) {
   TestContext context;
-  const auto result = fpfh(Cloud{}, key_points(Cloud{}, 1), {}, context);
+  const auto result = fpfh(Cloud{}, one_per_voxel(Cloud{}, 1), {}, context);
   EXPECT_EQ(result.features.size(), 0u);
   EXPECT_EQ(result.features.dimension, 33u);
 }
@@ -292,8 +294,8 @@ TEST(Fpfh, AgreesWithPcl) {
   const Cloud a = street_corner(8000, 9), b = street_corner(8000, 10);
   const FpfhOptions options = within(1.2);
   TestContext context;
-  const auto ours_a = fpfh(a, key_points(a, 0.7), options, context),
-             ours_b = fpfh(b, key_points(b, 0.7), options, context);
+  const auto ours_a = fpfh(a, one_per_voxel(a, 0.7), options, context),
+             ours_b = fpfh(b, one_per_voxel(b, 0.7), options, context);
   const auto pcl_a = fpfh_of_pcl(a, ours_a.index, 1.2), pcl_b = fpfh_of_pcl(b, ours_b.index, 1.2);
   EXPECT_GE(share_within(ours_a.features.vectors, pcl_a, 0.1f), 0.95);  // full scale is 100
   EXPECT_GE(share_within(ours_b.features.vectors, pcl_b, 0.1f), 0.95);

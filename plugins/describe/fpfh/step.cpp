@@ -1,24 +1,27 @@
 
 #include "plumb/slam/step.hpp"
 
+#include <optional>
+
 #include "fpfh.hpp"
-#include "key_points.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/plugin/module.hpp"
+#include "shared/keypoints/nearest_points.hpp"
+#include "shared/keypoints/one_per_voxel.hpp"
 
 namespace plumb::describe_fpfh {
 namespace {
 
 struct DescribeFpfh : SegmentStep {
   struct In {
-    One<Segment> segment;
+    One<Segment> segment, keypoints;
     One<Metrics> scale;
   };
   struct Out {
     Features features;
   };
   struct Params {
-    double keypoint_voxel_size = 0.8;
+    std::optional<double> keypoint_voxel_size = 0.8;
     double radius = 2.5;
     std::optional<std::uint32_t> max_neighbours;
     std::uint32_t min_neighbours = 10;
@@ -31,12 +34,16 @@ struct DescribeFpfh : SegmentStep {
         "Computes FPFH descriptors (fast point feature histograms, 33 numbers) at keypoints.");
     is.source("[Rusu2009] II; [Tang2024] 2.3.2; the keypoints are ours");
     is.input("segment", &In::segment, "a cloud with normals");
+    is.optional_input("keypoints", &In::keypoints,
+                      "keypoints of the segment instead of one a voxel, as keypoints.iss gives");
     is.scale(&In::scale);
     is.output("features", &Out::features, "keypoints with their histograms and border marks");
     is.param("keypoint_voxel_size", &Params::keypoint_voxel_size)
         .unit("m")
         .range(0.01, 100)
-        .doc("edge length of the voxels; each has one keypoint");
+        .doc(
+            "edge length of the voxels; each has one keypoint, unless keypoints are wired; none: "
+            "every point is one, as in [Tang2024]");
     is.param("radius", &Params::radius)
         .unit("m")
         .range(0.01, 100)
@@ -60,8 +67,12 @@ struct DescribeFpfh : SegmentStep {
     const Cloud& cloud = in.segment->cloud;
     if (!cloud.empty() && !cloud.has_normals())
       throw Error("describe.fpfh: the segment has no normals; put estimate.normals before it");
+    const auto keys =
+        in.keypoints ? keypoints::nearest_points(in.segment->tree(), in.keypoints->cloud)
+        : params.keypoint_voxel_size ? keypoints::one_per_voxel(cloud, *params.keypoint_voxel_size)
+                                     : keypoints::all_points(cloud);
     Fpfh result =
-        fpfh(cloud, key_points(cloud, params.keypoint_voxel_size),
+        fpfh(cloud, keys,
              {params.radius, params.max_neighbours, params.min_neighbours, params.border_angle},
              context);
     if (result.left_out > 0)

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "neighbours.hpp"
 #include "plumb/plugin/step_testing.hpp"
 #include "plumb/slam/cloud_testing.hpp"
 #include "plumb/slam/step.hpp"
+#include "voxels.hpp"
 
 namespace plumb::edges_overlap {
 namespace {
@@ -100,24 +100,6 @@ TEST(Morton, NestsEightVoxelsInOne) {
   EXPECT_EQ(morton((1 << 21) - 1, (1 << 21) - 1, (1 << 21) - 1), (1ull << 63) - 1);
   for (std::uint32_t x : {5u, 77777u, 2000001u})
     EXPECT_EQ(morton(x, x + 3, x / 2) >> 3, morton(x / 2, (x + 3) / 2, x / 4));
-}
-
-TEST(Meeting, FindsThePairsThatComparingEachWithEachFinds) {
-  Random random(5);
-  std::vector<Eigen::AlignedBox3d> boxes(120);
-  for (auto& box : boxes) {
-    const Eigen::Vector3d low(50 * random.uniform(), 50 * random.uniform(), 5 * random.uniform());
-    box = {low, low + Eigen::Vector3d(10 * random.uniform(), 10 * random.uniform(), 2)};
-  }
-  boxes[17].setEmpty();
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> judge;
-  for (std::uint32_t i = 0; i < 120; ++i)
-    for (std::uint32_t j = i + 1; j < 120; ++j)
-      if (i != 17 && j != 17 && (boxes[i].min().array() - 1 <= boxes[j].max().array()).all() &&
-          (boxes[j].min().array() - 1 <= boxes[i].max().array()).all())
-        judge.emplace_back(i, j);
-  EXPECT_EQ(meeting(boxes, 1), judge);
-  EXPECT_GT(judge.size(), 100u);
 }
 
 /// Blocks of 20 m x 10 m along x, one every `step` metres, there and back again.

@@ -1,17 +1,10 @@
 #include "voxels.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-
-#include "plumb/data/error.hpp"
-#include "plumb/data/short_number.hpp"
 
 namespace plumb::edges_overlap {
 namespace {
 
-constexpr int most_bits = 21;
 constexpr int coarse_shift = 9;  // three levels of three bits
 
 /// Puts two zeros between the low 21 bits.
@@ -46,41 +39,17 @@ void radix_sort(std::vector<std::uint64_t>& codes, int bits) {
 
 }  // namespace
 
-Eigen::AlignedBox3d world_box(const Box& box, const Pose& T_world_segment) {
-  if (box.empty()) return {};
-  const Eigen::Vector3d low = box.low.cast<double>(), high = box.high.cast<double>();
-  const Eigen::Vector3d centre = T_world_segment * Eigen::Vector3d(0.5 * (low + high));
-  const Eigen::Vector3d reach = T_world_segment.matrix().cwiseAbs() * (0.5 * (high - low));
-  return {centre - reach, centre + reach};
-}
-
-Lattice lattice_over(const std::vector<Eigen::AlignedBox3d>& boxes, double size) {
-  Eigen::AlignedBox3d all;
-  for (const auto& box : boxes) all.extend(box);
-  if (all.isEmpty()) return {size, Eigen::Vector3d::Zero(), 1};
-  const Eigen::Vector3d first =
-      (all.min() / size).array().floor() - 1;  // one to spare for rounding
-  const double longest = ((all.max() / size).array().floor() + 2 - first.array()).maxCoeff();
-  if (!(longest <= 1 << most_bits))
-    throw Error("the segments reach over " + short_number(all.sizes().maxCoeff()) +
-                " m, too far for voxels of " + short_number(size) +
-                " m: take a larger 'resolution', or see whether the poses are right");
-  return {size, size * first,
-          static_cast<int>(std::bit_width(static_cast<std::uint32_t>(longest)))};
-}
-
 std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
 }
 
 Voxels voxels_of(const Cloud& cloud, const Pose& T_world_segment, const Lattice& lattice) {
-  const Eigen::Matrix3d r = T_world_segment.matrix() / lattice.size;
-  const Eigen::Vector3d t = (T_world_segment.translation - lattice.origin) / lattice.size;
+  const overlapping::Cells cells(T_world_segment, lattice);
   std::vector<std::uint64_t> codes;
   codes.reserve(cloud.size());
   for (std::size_t k = 0; k < cloud.size(); ++k) {
-    const Eigen::Vector3d cell = r * cloud.point(k).cast<double>() + t;
-    if (!(cell.minCoeff() >= 0 && cell.maxCoeff() < 1 << most_bits)) continue;  // no finite number
+    const Eigen::Vector3d cell = cells.of(cloud.point(k));
+    if (!overlapping::Cells::within(cell, overlapping::most_bits)) continue;  // non-finite
     codes.push_back(morton(static_cast<std::uint32_t>(cell.x()),
                            static_cast<std::uint32_t>(cell.y()),
                            static_cast<std::uint32_t>(cell.z())));

@@ -1,29 +1,16 @@
 #pragma once
 /// An octree's leaves without the tree: the occupied voxels of a cloud, as sorted Morton codes.
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
-#include "plumb/slam/segment.hpp"
+#include "shared/overlapping/lattice.hpp"
 
 namespace plumb::edges_overlap {
 
-/// Cubic voxels of edge `size` [m] in world coordinates: voxel (0, 0, 0) begins at `origin` [m], a
-/// whole multiple of `size`.
-struct Lattice {
-  double size = 1;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  int bits = 21;  ///< codes of the cells that matter have 3 * bits bits
-};
-
-/// The smallest world box [m] round `box`, which is in the segment's coordinates; in double, for
-/// world coordinates can be large.
-Eigen::AlignedBox3d world_box(const Box& box, const Pose& T_world_segment);
-
-/// The lattice that holds all `boxes`. Throws Error when that takes more than 2^21 voxels along an
-/// axis.
-Lattice lattice_over(const std::vector<Eigen::AlignedBox3d>& boxes, double size);
+using overlapping::Lattice;
+using overlapping::lattice_over;
+using overlapping::world_box;
 
 /// The Morton code of a voxel: bits of x, y, z in turn, so that code >> 3 is that of the octree's
 /// next coarser voxel.

@@ -9,7 +9,7 @@
 #include "plumb/plugin/context.hpp"
 #include "plumb/slam/cloud.hpp"
 #include "plumb/slam/geometry/search_tree.hpp"
-#include "shared/planar/line_normal.hpp"
+#include "shared/neighbourhood/normals.hpp"
 
 namespace plumb::estimate_normals {
 
@@ -36,10 +36,6 @@ std::size_t estimate_normals(Cloud& cloud, const SearchTree& tree, const Neighbo
                              const std::function<Eigen::Vector3f(std::size_t)>& origin,
                              Context& context);
 
-/// The unit normal of the plane that fits `points` best in the sense of least squares, up to sign;
-/// zero if there are fewer than 3 or the shares are not met. Coordinates should be small (taken
-/// from a point nearby), so that the sums keep their digits.
-Eigen::Vector3f plane_normal(const Eigen::Vector3f* points, std::size_t count,
-                             double min_width = 1e-3, double max_thickness = 1);
+using neighbourhood::plane_normal;
 
 }  // namespace plumb::estimate_normals

@@ -43,10 +43,12 @@ class LoopSearch {
 
   Loops run() && {
     for (const Seed& seed : seeds()) {
+      if (options_.max_walks && found_.walks >= *options_.max_walks) break;
       if (!wanted(seed.i, seed.j)) continue;
       ++found_.walks;
       add(seed.i, seed.j, seed.similarity);
-      const auto same = walk(seed, +1), back = walk(seed, -1);
+      const auto same = walk(seed, +1);
+      const auto back = options_.either_direction ? walk(seed, -1) : std::vector<Seed>();
       const auto sum = [](const std::vector<Seed>& way) {
         double s = 0;
         for (const Seed& pair : way) s += pair.similarity;
@@ -112,9 +114,10 @@ class LoopSearch {
   /// The pairs on both sides of the seed; `way` is +1 if both passes go the same way, else -1.
   std::vector<Seed> walk(const Seed& seed, int way) const {
     std::vector<Seed> pairs;
-    for (const int side : {+1, -1})
-      for (std::int64_t i = seed.i + side, j = seed.j + side * way;
-           i >= 0 && j >= 0 && i < j && j < count_; i += side, j += side * way) {
+    const std::int64_t stride = options_.stride;
+    for (const std::int64_t step : {+stride, -stride})
+      for (std::int64_t i = seed.i + step, j = seed.j + step * way;
+           i >= 0 && j >= 0 && i < j && j < count_; i += step, j += step * way) {
         const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>(j);
         if (!allowed(a, b)) break;
         const double similarity = alike_(a, b);

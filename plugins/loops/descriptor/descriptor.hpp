@@ -25,6 +25,9 @@ struct LoopOptions {
   std::optional<double> threshold;  ///< none: relative, as follows
   double relative_threshold = 0.7;
   std::uint32_t loops_per_segment = 2;
+  std::uint32_t stride = 1;                ///< segments from one pair of a walk to the next
+  std::optional<std::uint32_t> max_walks;  ///< none: as many as find something
+  bool either_direction = true;            ///< false: (i + stride, j + stride) alone
 
   /// As parameters of a step.
   template <class Declare>
@@ -61,6 +64,21 @@ struct LoopOptions {
     is.param("loops_per_segment", &LoopOptions::loops_per_segment)
         .range(1, 1000)
         .doc("edges are added until both ends have this many");
+    is.param("stride", &LoopOptions::stride)
+        .range(1, 1000)
+        .doc(
+            "segments from one pair of a walk to the next: after (i, j) come (i + stride, j + "
+            "stride) and (i - stride, j - stride)")
+        .source("[Tang2024] 2.3.1 names (i - 2, j - 2)");
+    is.param("max_walks", &LoopOptions::max_walks)
+        .range(1, 1e9)
+        .doc(
+            "walks that are begun, the first one from the most similar pair of all; none: as long "
+            "as a pair is left that has an end with too few edges");
+    is.param("either_direction", &LoopOptions::either_direction)
+        .doc(
+            "walk to (i + stride, j - stride) where that is more similar, as along a street driven "
+            "back; false: i and j always rise together");
   }
 };
 
@@ -79,9 +97,11 @@ struct Loops {
 /// ... or (i-1, j+1), (i+1, j-1), ..., whichever way has the greater sum of similarities, until the
 /// threshold or what a partner may be is not met. Then the same from the most similar pair that is
 /// left and has an end with too few edges. So there are at most loops_per_segment x segments edges.
-/// Source: [Tang2024] 2.3.1 and its figure 1, whose text names of the walk only that it ends where
-/// (i-2, j-2) is below the threshold. How near and how far along the path a partner must be, the
-/// relative threshold, further partners, the second way and the later walks are ours.
+/// With a `stride` the walk goes from (i, j) to (i-stride, j-stride) and so on, and after
+/// `max_walks` no further one is begun. Source: [Tang2024] 2.3.1 and its figure 1, whose text names
+/// of the walk only that it ends where (i-2, j-2) is below the threshold. How near and how far
+/// along the path a partner must be, the relative threshold, further partners, the second way and
+/// the later walks are ours.
 Loops find_loops(const Places& places,
                  const std::function<double(std::uint32_t, std::uint32_t)>& alike,
                  const LoopOptions& options);

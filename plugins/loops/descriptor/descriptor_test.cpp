@@ -135,6 +135,65 @@ TEST(Loops, GrowNoFasterThanTheSegments) {
   }
 }
 
+TEST(Loops, OfOneWalkByStepsOfTwoAreEverySecondPairFromTheSeed) {
+  auto options = once();
+  options.stride = 2;
+  options.max_walks = 1;
+  const auto loops = twice_round(24).loops(options);
+  EXPECT_EQ(loops.walks, 1u);
+  ASSERT_EQ(loops.edges.size(), 12u);
+  for (const Edge& e : loops.edges.list) {
+    EXPECT_EQ(e.j - e.i, 24u);
+    EXPECT_EQ(e.i % 2, loops.edges.list[0].i % 2);
+  }
+}
+
+TEST(Loops, OfASingleWalkLeaveOutASecondPlace) {
+  // Round a block twice, far off round another one twice.
+  Drive drive;
+  for (const double x : {0.0, 1000.0})
+    for (int k = 0; k < 40; ++k)
+      drive.to(x + 32 * std::cos(0.314159 * k), 32 * std::sin(0.314159 * k));
+  auto options = once();
+  const auto both = drive.loops(options);
+  options.max_walks = 1;
+  const auto one = drive.loops(options);
+  EXPECT_GE(both.walks, 2u);
+  EXPECT_EQ(one.walks, 1u);
+  ASSERT_FALSE(one.edges.list.empty());
+  const bool second = one.edges.list[0].i >= 40;
+  for (const Edge& e : one.edges.list) {
+    EXPECT_EQ(e.i >= 40, second);
+    EXPECT_EQ(e.j >= 40, second);
+  }
+  EXPECT_LT(one.edges.size(), both.edges.size());
+}
+
+TEST(Loops, OfAStreetDrivenBackNeedTheOtherDirection) {
+  auto options = once();
+  options.max_walks = 1;
+  EXPECT_GE(out_and_back(20).loops(options).edges.size(), 15u);
+  options.either_direction = false;
+  const auto edges = out_and_back(20).loops(options).edges;
+  ASSERT_EQ(edges.size(), 1u);  // (i + 1, j + 1) lie 20 m apart, where no look is like another
+  EXPECT_EQ(edges.list[0].i + edges.list[0].j, 39u);
+}
+
+TEST(Loops, AreOfTheNextButOneWhereTheIndexAloneSaysWhatIsAdjacent) {
+  // As the paper has it: a straight street is a loop with itself.
+  Drive street;
+  for (int k = 0; k < 30; ++k) street.to(10 * k, 0);
+  auto options = once();
+  options.max_walks = 1;
+  options.threshold = 0.3;
+  EXPECT_TRUE(street.loops(options).edges.list.empty());
+  options.min_path_separation = 0;
+  options.either_direction = false;
+  const auto edges = street.loops(options).edges;
+  EXPECT_EQ(edges.size(), 28u);
+  for (const Edge& e : edges.list) EXPECT_EQ(e.j - e.i, 2u);
+}
+
 TEST(Loops, AreOrderedAndEachPairOnce) {
   const auto edges = twice_round(30).loops().edges;
   for (std::size_t k = 1; k < edges.size(); ++k)
@@ -166,7 +225,7 @@ StepUnderTest step_for(const Drive& drive) {
 }
 
 TEST(LoopEdges, AreFoundFromDescriptorsWithEachSimilarity) {
-  for (const std::string name : {"inverse_difference", "cosine", "chi_square"}) {
+  for (const std::string name : {"inverse_difference", "equation_1", "cosine", "chi_square"}) {
     TestContext context;
     const auto edges = step_for(out_and_back(20))
                            .set("similarity", name)

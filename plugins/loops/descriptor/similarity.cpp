@@ -1,5 +1,6 @@
 #include "similarity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,6 +17,18 @@ double inverse_difference(const std::vector<float>& a, const std::vector<float>&
     if (a[k] == 0 && b[k] == 0) continue;
     const double weight = 1 - static_cast<double>(k + 1) / bins;
     sum += weight * epsilon / (std::abs(static_cast<double>(a[k]) - b[k]) + epsilon);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+double equation_1(const std::vector<float>& a, const std::vector<float>& b, double epsilon) {
+  double sum = 0, weights = 0;
+  const auto bins = static_cast<double>(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double weight = 1 - static_cast<double>(k + 1) / bins;
+    const double difference = std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k]));
+    sum += weight * epsilon / std::max(difference, epsilon);
     weights += weight;
   }
   return weights > 0 ? sum / weights : 0;
@@ -50,6 +63,8 @@ double similarity(const std::vector<float>& a, const std::vector<float>& b, Simi
   switch (measure) {
     case Similarity::inverse_difference:
       return inverse_difference(a, b, epsilon);
+    case Similarity::equation_1:
+      return equation_1(a, b, epsilon);
     case Similarity::cosine:
       return cosine(a, b);
     case Similarity::chi_square:

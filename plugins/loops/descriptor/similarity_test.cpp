@@ -67,6 +67,28 @@ TEST(Similarity, IsEquationOneTimesEpsilonWhereNoBinsAreNear) {
               4 * equation_one / weights, 1e-8);
 }
 
+TEST(Similarity, AsPrintedIsEquationOneTimesAConstant) {
+  const std::vector<float> a = {1, 5, 2, 7}, b = {4, 1, 8, 3};
+  const double equation_one = (0.75 / 3 + 0.5 / 4 + 0.25 / 6 + 0) / 4;
+  const double constant = 2 * 4 * 1e-3 / 3;
+  EXPECT_NEAR(similarity(a, b, Similarity::equation_1, 1e-3), constant * equation_one, 1e-12);
+}
+
+TEST(Similarity, AsPrintedCountsEveryBinAndHasAFloorUnderItsDifferences) {
+  // The first bin agrees to the floor, the second differs by 0.25, the last two are empty in both.
+  const std::vector<float> a = {0.5f, 0.5f, 0, 0}, b = {0.505f, 0.25f, 0, 0};
+  EXPECT_NEAR(similarity(a, b, Similarity::equation_1, 0.01),
+              (0.75 + 0.5 * 0.01 / 0.25 + 0.25) / 1.5, 1e-6);
+  EXPECT_DOUBLE_EQ(similarity(b, a, Similarity::equation_1, 0.01),
+                   similarity(a, b, Similarity::equation_1, 0.01));
+  EXPECT_DOUBLE_EQ(similarity(a, a, Similarity::equation_1, 0.01), 1);
+}
+
+TEST(Similarity, AsPrintedIsTheShareOfBinsThatAgreeWhereTheFloorIsLow) {
+  const std::vector<float> a = {3, 5, 0, 7, 1}, b = {3, 1, 0, 2, 8};
+  EXPECT_NEAR(similarity(a, b, Similarity::equation_1, 1e-9), (0.8 + 0.4) / 2, 1e-8);
+}
+
 TEST(Similarity, FallsAsDescriptorsPart) {
   const auto a = histogram(640, 1), b = histogram(640, 2);
   for (const auto measure : every) {

@@ -37,12 +37,16 @@ struct LoopEdges : WholeStep {
     is.choice("similarity", &Params::similarity,
               {{"inverse_difference", Similarity::inverse_difference,
                 "eq. 1, bounded where bins agree"},
+               {"equation_1", Similarity::equation_1,
+                "eq. 1 as printed, no difference less than 'epsilon', times a constant"},
                {"cosine", Similarity::cosine, "cosine of the angle between the vectors"},
                {"chi_square", Similarity::chi_square, "1 - chi-square distance of the histograms"}})
         .doc("how two descriptors are compared");
     is.param("epsilon", &Params::epsilon)
         .range(1e-9, 1)
-        .doc("difference of two bins that counts as agreement; for inverse_difference");
+        .doc(
+            "difference of two bins that counts as agreement; for inverse_difference and "
+            "equation_1");
     is.params(&Params::loops);
   }
 

@@ -244,5 +244,52 @@ TEST(OccupancyGridStep, PlacesFramesByTheirPoses) {
                Error);
 }
 
+TEST(SubmapGridStep, DrawsEachSubmapAsAScanFromItsOrigin) {
+  // A point 1 m ahead, and one behind it that another scan of the submap saw.
+  Cloud cloud;
+  cloud.add({1, 0, 0}), cloud.add({2, 0, 0});
+  const Segment submap = Segment().with(cloud, {0, 0});
+  Poses poses;
+  poses.T_world_segment.push_back({exp_rotation({0, 0, M_PI / 2}), {3.01, 4.01, 0}});
+  TestContext context;
+  StepUnderTest step(*plumb_module(), 1);
+  step.each<Segment>("submaps", {submap}).with("poses", poses);
+  const auto map = step.run<GridMap>("map", context);
+  EXPECT_GT(at(map, 3.02, 5.02), 0);  // the ray to the other point passes it: the hit wins
+  EXPECT_GT(at(map, 3.02, 6.02), 0);
+  EXPECT_LT(at(map, 3.02, 4.52), 0);
+  EXPECT_LT(at(map, 3.02, 5.52), 0);
+  EXPECT_EQ(context.counts["cells occupied"], 2u);
+  poses.T_world_segment.resize(2);
+  EXPECT_THROW(step.with("poses", poses).run<GridMap>("map", context), Error);
+}
+
+TEST(SubmapGridStep, OfSingleScansIsTheGridOfTheScans) {
+  TestContext context;
+  Trajectory trajectory;
+  Poses poses;
+  std::vector<Frame> frames;
+  std::vector<Segment> submaps;
+  for (int k = 0; k < 3; ++k) {
+    poses.T_world_segment.push_back({exp_rotation({0, 0, 0.3 * k}), {0.4 * k, 0, 0}});
+    trajectory.T_world_frame.push_back(poses.T_world_segment.back());
+    trajectory.stamps.push_back(k);
+    frames.emplace_back();
+    for (int n = 0; n < 40; ++n)
+      frames.back().cloud.add(
+          {4 + std::sin(0.2f * static_cast<float>(n + k)), 0.1f * static_cast<float>(n) - 2, 0});
+    submaps.push_back(Segment().with(frames.back().cloud, std::vector<std::uint16_t>(40, 0)));
+  }
+  const auto of_scans = StepUnderTest(*plumb_module())
+                            .each("frames", frames)
+                            .with("trajectory", trajectory)
+                            .run<GridMap>("map", context);
+  const auto of_submaps = StepUnderTest(*plumb_module(), 1)
+                              .each("submaps", submaps)
+                              .with("poses", poses)
+                              .run<GridMap>("map", context);
+  EXPECT_EQ(to_bytes(of_scans), to_bytes(of_submaps));
+}
+
 }  // namespace
 }  // namespace plumb::map_occupancy_grid

@@ -72,6 +72,19 @@ TEST(MutualNearest, TakesAnyDimension) {
   EXPECT_THAT(mutual_nearest(a, b, 1), ElementsAre(Pair(0, 1), Pair(2, 0)));
 }
 
+TEST(MutualNearest, IsExactInAsManyDimensionsAsShotHas) {
+  constexpr std::size_t dimension = 352;
+  Random random(12);
+  std::vector<float> a, b;
+  for (std::size_t k = 0; k < 90 * dimension; ++k)
+    a.push_back(static_cast<float>(std::pow(random.uniform(), 8)));
+  for (std::size_t k = 0; k < 70 * dimension; ++k)
+    b.push_back(a[k] + static_cast<float>(0.3 * random.uniform()));
+  const auto pairs = mutual_nearest(a, b, dimension);
+  EXPECT_EQ(pairs, mutual_nearest_plainly(a, b, dimension));
+  EXPECT_GT(pairs.size(), 30u);
+}
+
 TEST(MutualNearest, LeavesOutVectorsThatAreNoNumbers) {
   auto a = vectors(20, 9), b = vectors(30, 10);
   a[40] = std::numeric_limits<float>::quiet_NaN();

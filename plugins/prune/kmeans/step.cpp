@@ -27,6 +27,7 @@ struct KMeans : EdgeStep {
     Keep keep = Keep::largest;
     double min_spread = 0.3;
     std::uint32_t min_pairs = 6;
+    std::uint32_t seed = 0;
   };
 
   static void describe(Declaration<KMeans>& is) {
@@ -60,6 +61,7 @@ struct KMeans : EdgeStep {
     is.param("min_pairs", &Params::min_pairs)
         .range(2, 1e6)
         .doc("fewer pairs than this are kept as they are: too few to cluster");
+    is.param("seed", &Params::seed).doc("another draw for each number; 0: by the inputs alone");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -72,8 +74,8 @@ struct KMeans : EdgeStep {
                              ? displacements(matches, in.poses.T_i_j)
                              : motions(matches, in.poses.T_i_j, params.lever);
     const auto wanted = static_cast<std::uint32_t>(matches.size()) / params.pairs_per_cluster;
-    const auto clusters =
-        kmeans(vectors, std::clamp(wanted, 2u, params.max_clusters), Random(context.seed()));
+    const auto clusters = kmeans(vectors, std::clamp(wanted, 2u, params.max_clusters),
+                                 Random(reseeded(context.seed(), params.seed)));
     const auto kept =
         best_cluster(clusters, vectors, params.keep, params.min_spread, params.min_pairs);
     context.count("pairs dropped", matches.size() - kept.size());

@@ -17,6 +17,9 @@ struct Comparison {
 /// allow.
 constexpr double informative = 8;
 
+/// So few loops may agree by chance.
+constexpr int fewest_rivals = 3;
+
 class Judge {
  public:
   Judge(const std::vector<Loop>& loops, const Poses& poses, const ConsistencyOptions& options)
@@ -110,16 +113,37 @@ class Judge {
     return all;
   }
 
+  /// What the others say of each loop.
+  struct Neighbours {
+    std::vector<std::uint32_t> agree, disagree;
+  };
+
   void drop_contradictions() {
-    const auto all = comparisons();
-    std::vector<std::vector<std::uint32_t>> of(loops_.size());
+    std::vector<Neighbours> of(loops_.size());
+    for (const Comparison& one : comparisons()) {
+      (one.agree ? of[one.a].agree : of[one.a].disagree).push_back(one.b);
+      (one.agree ? of[one.b].agree : of[one.b].disagree).push_back(one.a);
+    }
+    drop_minorities(of);
+    drop_undecided(of);
+    for (std::uint32_t k = 0; k < loops_.size(); ++k)
+      if (verdicts_[k] == LoopVerdict::kept && count(of[k].agree, LoopVerdict::kept) == 0 &&
+          options_.drift.position(path(loops_[k].i, loops_[k].j), extent(loops_[k])) >
+              options_.max_unconfirmed_sigma)
+        verdicts_[k] = LoopVerdict::alone;
+  }
+
+  int count(const std::vector<std::uint32_t>& loops, LoopVerdict verdict) const {
+    return static_cast<int>(
+        std::ranges::count_if(loops, [&](std::uint32_t k) { return verdicts_[k] == verdict; }));
+  }
+
+  void drop_minorities(const std::vector<Neighbours>& of) {
     std::vector<int> told(loops_.size(), 0), agreed(loops_.size(), 0);
-    for (std::uint32_t n = 0; n < all.size(); ++n)
-      for (const std::uint32_t k : {all[n].a, all[n].b}) {
-        of[k].push_back(n);
-        ++told[k];
-        agreed[k] += all[n].agree;
-      }
+    for (std::uint32_t k = 0; k < loops_.size(); ++k) {
+      agreed[k] = static_cast<int>(of[k].agree.size());
+      told[k] = agreed[k] + static_cast<int>(of[k].disagree.size());
+    }
     for (;;) {
       std::uint32_t worst = 0;
       double least = 2;
@@ -130,17 +154,45 @@ class Judge {
       }
       if (least >= options_.min_agreement) break;
       verdicts_[worst] = LoopVerdict::against_loops;
-      for (const std::uint32_t n : of[worst]) {
-        const std::uint32_t other = all[n].a == worst ? all[n].b : all[n].a;
-        --told[other];
-        agreed[other] -= all[n].agree;
+      for (const std::uint32_t other : of[worst].agree) --told[other], --agreed[other];
+      for (const std::uint32_t other : of[worst].disagree) --told[other];
+    }
+  }
+
+  /// The dropped loops that disagree with `loop` and have another dropped one on their side.
+  std::vector<std::uint32_t> rivals(std::uint32_t loop, const std::vector<Neighbours>& of) const {
+    std::vector<std::uint32_t> rivals;
+    for (const std::uint32_t other : of[loop].disagree)
+      if (verdicts_[other] == LoopVerdict::against_loops &&
+          count(of[other].agree, LoopVerdict::against_loops) > 0)
+        rivals.push_back(other);
+    return rivals;
+  }
+
+  /// Judged by what was kept and dropped before, so that no order matters. Then those of which half
+  /// of the loops that agree with them are undecided.
+  void drop_undecided(const std::vector<Neighbours>& of) {
+    std::vector<std::uint32_t> undecided;
+    for (std::uint32_t k = 0; k < loops_.size(); ++k) {
+      if (verdicts_[k] != LoopVerdict::kept) continue;
+      const auto against = rivals(k, of);
+      const int support = 1 + count(of[k].agree, LoopVerdict::kept);
+      if (static_cast<int>(against.size()) < fewest_rivals ||
+          static_cast<double>(against.size()) <= options_.max_rival_share * support)
+        continue;
+      undecided.push_back(k);
+      undecided.insert(undecided.end(), against.begin(), against.end());
+    }
+    while (!undecided.empty()) {
+      for (const std::uint32_t k : undecided) verdicts_[k] = LoopVerdict::undecided;
+      undecided.clear();
+      for (std::uint32_t k = 0; k < loops_.size(); ++k) {
+        if (verdicts_[k] != LoopVerdict::kept) continue;
+        const int doubtful = count(of[k].agree, LoopVerdict::undecided);
+        if (doubtful > 0 && doubtful >= count(of[k].agree, LoopVerdict::kept))
+          undecided.push_back(k);
       }
     }
-    for (std::uint32_t k = 0; k < loops_.size(); ++k)
-      if (verdicts_[k] == LoopVerdict::kept && agreed[k] == 0 &&
-          options_.drift.position(path(loops_[k].i, loops_[k].j), extent(loops_[k])) >
-              options_.max_unconfirmed_sigma)
-        verdicts_[k] = LoopVerdict::alone;
   }
 
   const std::vector<Loop>& loops_;

@@ -27,13 +27,16 @@ struct Loop {
   double sigma_translation = 0.1, sigma_rotation = 0.005;  ///< of its own [m], [rad]
 };
 
-enum class LoopVerdict : std::uint8_t { kept, against_odometry, against_loops, alone };
+enum class LoopVerdict : std::uint8_t { kept, against_odometry, against_loops, undecided, alone };
 
 struct ConsistencyOptions {
   DriftModel drift;
   double max_deviation = 3.5;  ///< standard deviations within which things agree
   double min_agreement =
       0.6;  ///< share of the other loops, of those that can tell, that must agree with a loop
+  double max_rival_share = 0.5;  ///< rejected loops that contradict a kept one and agree with
+                                 ///< another, as a share of those that agree with it: above it
+                                 ///< none is kept
   double max_path_separation =
       150;  ///< [m] path at either end within which two loops can tell something of each other
   double max_unconfirmed_sigma = 3;  ///< [m] a loop that no other can confirm is kept where the
@@ -44,7 +47,9 @@ struct ConsistencyOptions {
 /// Then two loops that lie near each other at both ends are compared round their cycle i_a j_a j_b
 /// i_b: with the little path between them the poses are nearly exact, so right loops agree to
 /// decimetres. While some loop agrees with less than `min_agreement` of its neighbours, the one
-/// that agrees with the smallest share is dropped. Source: pairwise consistency, Mangelson et al.
+/// that agrees with the smallest share is dropped. Where those that were dropped agree with each
+/// other and are not much fewer than those that stay, neither side is believed: both may be streets
+/// that look alike. Source: pairwise consistency, Mangelson et al.
 /// 2018 (PCM), with covariances that grow with the path.
 std::vector<LoopVerdict> judge_loops(const std::vector<Loop>& loops, const Poses& poses,
                                      const ConsistencyOptions& options);

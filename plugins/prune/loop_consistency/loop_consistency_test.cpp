@@ -87,6 +87,45 @@ TEST(LoopConsistency, DropsLoopsWithinTheDriftThatTheirNeighboursContradict) {
   }
 }
 
+/// The same motion of the world for all of them: they agree.
+void move_alike(std::vector<Loop>& loops, std::size_t first, std::size_t count,
+                const Drive& drive) {
+  const Pose motion(exp_rotation({0, 0, 0.02}), {9, -12, 0});
+  for (std::size_t k = first; k < first + count; ++k) {
+    const Pose& T_world_i = drive.truth.T_world_segment[loops[k].i];
+    loops[k].T_i_j = T_world_i.inverse() * motion * T_world_i * loops[k].T_i_j;
+  }
+}
+
+TEST(LoopConsistency, BelievesNeitherOfTwoGroupsThatContradictEachOther) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Drive drive = two_laps(seed, 0.3);
+    std::mt19937 random(seed);
+    std::vector<Loop> loops;
+    for (std::uint32_t k = 0; k < 9; ++k)
+      loops.push_back(right_loop(drive, k, k + Drive::lap, random));
+    move_alike(loops, 0, 5, drive);  // five against four
+    const auto verdicts = judge_loops(loops, drive.drifted, {});
+    EXPECT_EQ(count(verdicts, LoopVerdict::undecided), 9u) << seed;
+  }
+}
+
+TEST(LoopConsistency, BelievesTheManyAgainstAFewThatAgree) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Drive drive = two_laps(seed, 0.3);
+    std::mt19937 random(seed);
+    std::vector<Loop> loops;
+    for (const std::uint32_t beside : {0u, 1u, 2u})
+      for (std::uint32_t k = 0; k < 14; ++k)
+        loops.push_back(right_loop(drive, k, k + Drive::lap + beside, random));
+    move_alike(loops, 5, 3, drive);
+    const auto verdicts = judge_loops(loops, drive.drifted, {});
+    for (std::size_t k = 0; k < loops.size(); ++k)
+      EXPECT_EQ(verdicts[k], k >= 5 && k < 8 ? LoopVerdict::against_loops : LoopVerdict::kept)
+          << "seed " << seed << ", loop " << k;
+  }
+}
+
 TEST(LoopConsistency, DropsALoopThatIsWrongByItsAngleAlone) {
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     const Drive drive = two_laps(seed, 0.3);

@@ -19,6 +19,8 @@ const char* reason(LoopVerdict verdict) {
       return "rejected: no drift explains it";
     case LoopVerdict::against_loops:
       return "rejected: other loops of the place contradict it";
+    case LoopVerdict::undecided:
+      return "undecided: loops of the place contradict each other in groups";
     case LoopVerdict::alone:
       return "rejected: no other loop confirms it";
   }
@@ -41,6 +43,7 @@ struct PruneLoopConsistency : WholeStep {
     double correlation_length = 100;
     double max_deviation = 3.5;
     double min_agreement = 0.6;
+    double max_rival_share = 0.5;
     double max_path_separation = 150;
     double max_unconfirmed_sigma = 3;
     double translation_sigma = 0.1;
@@ -75,6 +78,12 @@ struct PruneLoopConsistency : WholeStep {
         .unit("%")
         .range(0, 1)
         .doc("share of the neighbouring loops that must be consistent with a loop");
+    is.param("max_rival_share", &Params::max_rival_share)
+        .unit("%")
+        .range(0, 10)
+        .doc(
+            "rejected loops that contradict a kept one and agree with another, as a share of those "
+            "that agree with it, above which neither side is kept");
     is.param("max_path_separation", &Params::max_path_separation)
         .unit("m")
         .range(0, 1e6)
@@ -116,16 +125,18 @@ struct PruneLoopConsistency : WholeStep {
         {{params.translation_per_metre, params.rotation_per_metre, params.correlation_length},
          params.max_deviation,
          params.min_agreement,
+         params.max_rival_share,
          params.max_path_separation,
          params.max_unconfirmed_sigma});
     Out out;
     std::vector<std::string> statuses(edges.size(), "not registered");
-    std::size_t kept = 0, odometry = 0, contradicted = 0, alone = 0;
+    std::size_t kept = 0, odometry = 0, contradicted = 0, undecided = 0, alone = 0;
     for (std::size_t n = 0; n < loops.size(); ++n) {
       statuses[of[n]] = reason(verdicts[n]);
       kept += verdicts[n] == LoopVerdict::kept,
           odometry += verdicts[n] == LoopVerdict::against_odometry;
       contradicted += verdicts[n] == LoopVerdict::against_loops,
+          undecided += verdicts[n] == LoopVerdict::undecided,
           alone += verdicts[n] == LoopVerdict::alone;
       if (verdicts[n] == LoopVerdict::kept)
         out.constraints.relative.push_back(constraint_of(
@@ -136,6 +147,7 @@ struct PruneLoopConsistency : WholeStep {
         .add("loops_registered", static_cast<double>(loops.size()), "")
         .add("loops_against_odometry", static_cast<double>(odometry), "")
         .add("loops_against_loops", static_cast<double>(contradicted), "")
+        .add("loops_undecided", static_cast<double>(undecided), "")
         .add("loops_alone", static_cast<double>(alone), "");
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Registration& r = registrations[k];
@@ -148,6 +160,7 @@ struct PruneLoopConsistency : WholeStep {
     context.count("loops kept", kept);
     context.count("loops dropped: explained by no drift", odometry);
     context.count("loops dropped: contradicted by other loops", contradicted);
+    context.count("loops dropped: undecided between groups of them", undecided);
     context.count("loops dropped: alone and far", alone);
     return out;
   }

@@ -18,6 +18,7 @@ struct Ransac : EdgeStep {
     double confidence = RansacOptions().confidence;
     std::uint32_t max_iterations = RansacOptions().max_iterations;
     std::uint32_t min_pairs = 6;
+    std::uint32_t seed = 0;
   };
 
   static void describe(Declaration<Ransac>& is) {
@@ -38,6 +39,7 @@ struct Ransac : EdgeStep {
     is.param("min_pairs", &Params::min_pairs)
         .range(3, 1e6)
         .doc("fewer pairs than this are kept as they are: any three fit some motion");
+    is.param("seed", &Params::seed).doc("another draw for each number; 0: by the inputs alone");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -48,7 +50,7 @@ struct Ransac : EdgeStep {
     }
     const auto consensus = ransac(
         matches, {params.max_correspondence_distance, params.confidence, params.max_iterations},
-        Random(context.seed()));
+        Random(reseeded(context.seed(), params.seed)));
     context.count("samples drawn", consensus.samples);
     context.count("pairs dropped", matches.size() - consensus.inliers.size());
     if (consensus.inliers.empty()) context.count("edges without any motion", 1);

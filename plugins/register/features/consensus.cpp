@@ -1,53 +1,13 @@
 #include "consensus.hpp"
 
 #include <algorithm>
-#include <bit>
 
+#include "shared/point_pairs/compatibility.hpp"
 #include "shared/point_pairs/rigid_fit.hpp"
 #include "shared/selection/evenly.hpp"
 
 namespace plumb::register_features {
 namespace {
-
-/// Row a has bit b where pairs a and b are compatible.
-class Compatibility {
- public:
-  Compatibility(const Matches& matches, const std::vector<std::uint32_t>& chosen,
-                const ConsensusOptions& options)
-      : n_(chosen.size()), words_((n_ + 63) / 64), bits_(n_ * words_, 0) {
-    const auto tolerance = static_cast<float>(options.tolerance),
-               shortest = static_cast<float>(options.min_length);
-    for (std::size_t a = 0; a < n_; ++a)
-      for (std::size_t b = a + 1; b < n_; ++b) {
-        const float p = (matches.p[chosen[a]] - matches.p[chosen[b]]).norm(),
-                    q = (matches.q[chosen[a]] - matches.q[chosen[b]]).norm();
-        if (std::abs(p - q) > tolerance || std::min(p, q) < shortest) continue;
-        set(a, b);
-        set(b, a);
-      }
-  }
-  std::uint32_t degree(std::size_t a) const {
-    std::uint32_t count = 0;
-    for (std::size_t w = 0; w < words_; ++w)
-      count += static_cast<std::uint32_t>(std::popcount(row(a)[w]));
-    return count;
-  }
-  std::uint32_t common(std::size_t a, std::size_t b) const {
-    std::uint32_t count = 0;
-    for (std::size_t w = 0; w < words_; ++w)
-      count += static_cast<std::uint32_t>(std::popcount(row(a)[w] & row(b)[w]));
-    return count;
-  }
-  bool compatible(std::size_t a, std::size_t b) const { return row(a)[b / 64] >> (b % 64) & 1; }
-
- private:
-  const std::uint64_t* row(std::size_t a) const { return bits_.data() + a * words_; }
-  void set(std::size_t a, std::size_t b) {
-    bits_[a * words_ + b / 64] |= std::uint64_t{1} << (b % 64);
-  }
-  std::size_t n_, words_;
-  std::vector<std::uint64_t> bits_;
-};
 
 /// Fits again to who agrees, as long as their number grows.
 Consensus grown(const Matches& matches, std::vector<std::uint32_t> pairs, double tolerance) {
@@ -71,7 +31,8 @@ Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) 
   const std::vector<std::uint32_t> chosen = selection::evenly(matches.size(), options.max_pairs);
   const std::size_t n = chosen.size();
   if (n < 3) return best;
-  const Compatibility graph(matches, chosen, options);
+  const point_pairs::BitGraph graph = point_pairs::compatibility_of(
+      matches.p, matches.q, chosen, options.tolerance, options.min_length);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order(n);  // most compatible first
   for (std::uint32_t a = 0; a < n; ++a) order[a] = {graph.degree(a), a};
   std::ranges::sort(order, [](const auto& a, const auto& b) {
@@ -84,7 +45,7 @@ Consensus consensus_of(const Matches& matches, const ConsensusOptions& options) 
     if (order[s].first < 3) break;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> friends;
     for (std::uint32_t b = 0; b < n; ++b)
-      if (graph.compatible(seed, b)) friends.emplace_back(graph.common(seed, b), b);
+      if (graph.joined(seed, b)) friends.emplace_back(graph.common(seed, b), b);
     const std::size_t few = std::min(sample, friends.size());
     std::ranges::partial_sort(friends, friends.begin() + static_cast<std::ptrdiff_t>(few),
                               [](const auto& a, const auto& b) {

@@ -27,9 +27,25 @@ TEST(SegmentByCount, JoinsALastSegmentUnderHalfToTheOneBefore) {
   EXPECT_THAT(starts_by_count(10, 4), ElementsAre(0, 4, 8));   // exactly half stays
 }
 
+TEST(SegmentByCount, MovesAllCutsByItsPhase) {
+  EXPECT_THAT(starts_by_count(20, 6, 0), ElementsAre(0, 6, 12));
+  EXPECT_THAT(starts_by_count(20, 6, 0.5), ElementsAre(0, 3, 9, 15));
+  EXPECT_THAT(starts_by_count(3, 1, 0.5), ElementsAre(0, 1, 2));
+  EXPECT_THAT(starts_by_count(2, 6, 0.5), ElementsAre(0));
+}
+
 TEST(SegmentByCount, KeepsASingleSegmentHoweverShort) {
   EXPECT_THAT(starts_by_count(2, 60), ElementsAre(0));
   EXPECT_THAT(starts_by_count(0, 60), IsEmpty());
+}
+
+TEST(SegmentByCount, MakesAboutAsManySegmentsAsAskedFor) {
+  EXPECT_EQ(frames_for(2700, 45), 60u);
+  EXPECT_EQ(frames_for(2018, 34), 60u);  // 59.4
+  EXPECT_EQ(frames_for(10, 4), 3u);
+  EXPECT_EQ(frames_for(3, 60), 1u);
+  EXPECT_EQ(frames_for(0, 60), 1u);
+  EXPECT_THAT(starts_by_count(100, frames_for(100, 7)), ElementsAre(0, 15, 30, 45, 60, 75, 90));
 }
 
 Trajectory turning(std::size_t frames) {
@@ -43,18 +59,30 @@ Trajectory turning(std::size_t frames) {
   return trajectory;
 }
 
-std::vector<FrameRange> run(const Trajectory& trajectory, std::int64_t frames, Poses& poses) {
+std::vector<FrameRange> run(const Trajectory& trajectory, const ParameterValues& values,
+                            Poses& poses) {
   const Step& step = *plumb_module()->steps[0];
   PortInput input;
   input.wired = true;
   input.one = any_value(trajectory);
   PortOutput outputs[2];
   TestContext context;
-  step.run(step.parameters({{"frames", frames}}).get(), {&input, 1}, outputs, context);
+  step.run(step.parameters(values).get(), {&input, 1}, outputs, context);
   std::vector<FrameRange> ranges;
   for (const auto& value : outputs[0].many) ranges.push_back(*value.as<FrameRange>());
   poses = *outputs[1].one.as<Poses>();
   return ranges;
+}
+std::vector<FrameRange> run(const Trajectory& trajectory, std::int64_t frames, Poses& poses) {
+  return run(trajectory, ParameterValues{{"frames", frames}}, poses);
+}
+
+TEST(SegmentByCount, TakesTheNumberOfSegmentsBeforeThatOfFrames) {
+  Poses poses;
+  const ParameterValues values{{"frames", std::int64_t{5}}, {"segments", std::int64_t{2}}};
+  EXPECT_EQ(run(turning(24), values, poses).size(), 2u);
+  EXPECT_EQ(poses.size(), 2u);
+  EXPECT_EQ(run(turning(24), 5, poses).size(), 5u);
 }
 
 TEST(SegmentByCount, PutsEachSegmentIntoItsMiddleFrameAndCoversTheTrajectory) {

@@ -12,12 +12,13 @@ double grown_length(double path, double length, std::optional<double> max_length
 
 std::vector<std::size_t> starts_by_distance(
     const std::vector<double>& travelled, double length, std::optional<std::size_t> max_frames,
-    const std::function<bool(std::size_t, std::size_t)>& breaks) {
+    const std::function<bool(std::size_t, std::size_t)>& breaks, double phase) {
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < travelled.size(); ++k) {
     const bool full = !starts.empty() && max_frames && k - starts.back() >= *max_frames;
     const bool broken = !starts.empty() && breaks && breaks(starts.back(), k);
-    if (starts.empty() || full || broken || travelled[k] - travelled[starts.back()] > length)
+    const double longest = starts.size() == 1 ? (1 - phase) * length : length;
+    if (starts.empty() || full || broken || travelled[k] - travelled[starts.back()] > longest)
       starts.push_back(k);
   }
   if (starts.size() < 2) return starts;

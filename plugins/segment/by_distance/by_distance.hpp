@@ -19,9 +19,10 @@ double grown_length(double path, double length, std::optional<double> max_length
 /// that is under half in both senses joins the one before it, unless both together would reach
 /// twice `length`. Empty for no frames. Where `breaks(first, k)` is given, frame k also begins a
 /// new segment when it is true for the frame k and its segment's first; a last segment that it
-/// parts from the one before stays. Ours.
+/// parts from the one before stays. The first segment is shorter than the others by the share
+/// `phase` (0 to 0.5) of `length`, which moves all cuts. Ours.
 std::vector<std::size_t> starts_by_distance(
     const std::vector<double>& travelled, double length, std::optional<std::size_t> max_frames,
-    const std::function<bool(std::size_t first, std::size_t k)>& breaks = {});
+    const std::function<bool(std::size_t first, std::size_t k)>& breaks = {}, double phase = 0);
 
 }  // namespace plumb::segment_by_distance

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "plumb/data/io/file_testing.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/plugin/testing.hpp"
@@ -27,6 +29,13 @@ TEST(SegmentByDistance, JoinsALastSegmentUnderHalfToTheOneBefore) {
   EXPECT_THAT(starts_by_distance({0, 2, 4, 6, 7.9}, 4, {}), ElementsAre(0));  // 1.9 m left of 4
   EXPECT_THAT(starts_by_distance({0, 2, 4, 6, 8.0}, 4, {}),
               ElementsAre(0, 3));  // exactly half stays
+}
+
+TEST(SegmentByDistance, MovesAllCutsByItsPhase) {
+  const std::vector<double> travelled{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0), ElementsAre(0, 5, 10));
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0.25), ElementsAre(0, 4, 9));
+  EXPECT_THAT(starts_by_distance(travelled, 4, {}, {}, 0.5), ElementsAre(0, 3, 8));
 }
 
 TEST(SegmentByDistance, DoesNotCutWhileTheSensorRests) {
@@ -98,11 +107,14 @@ TEST(GrownLength, MakesNoMoreSegmentsThanAskedForHoweverFramesLie) {
   }
 }
 
-/// Ends of the segments of `frames` frames, 1 m apart.
-std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& values) {
+double seconds(std::size_t k) { return static_cast<double>(k); }
+
+/// Ends of the segments of `frames` frames, 1 m apart, with the stamps [s] that are given.
+std::vector<std::size_t> ends_of(std::size_t frames, const ParameterValues& values,
+                                 const std::function<double(std::size_t)>& stamp = seconds) {
   Trajectory trajectory;
   for (std::size_t k = 0; k < frames; ++k) {
-    trajectory.stamps.push_back(static_cast<double>(k));
+    trajectory.stamps.push_back(stamp(k));
     trajectory.T_world_frame.push_back(
         {Eigen::Quaterniond::Identity(), {static_cast<double>(k), 0, 0}});
   }
@@ -134,6 +146,24 @@ TEST(SegmentByDistance, GrowsItsSegmentsOnALongWayWhenToldTo) {
   EXPECT_EQ(
       ends_of(21, Values{{"length", 4.0}, {"max_length", 60.0}, {"max_segments", std::int64_t{5}}}),
       ends_of(21, Values{{"length", 4.0}}));
+}
+
+TEST(SegmentByDistance, CutsByTimeWhenToldToAndKeepsItsLastSegment) {
+  // A frame a second and a metre.
+  EXPECT_THAT(ends_of(10, {{"length", 1000.0}, {"max_duration", 3.0}}), ElementsAre(3, 6, 9, 10));
+  EXPECT_THAT(ends_of(10, {{"length", 1000.0}, {"max_duration", 2.5}}), ElementsAre(3, 6, 9, 10));
+  EXPECT_THAT(ends_of(9, {{"length", 4.0}, {"max_duration", 3.0}}), ElementsAre(3, 6, 9));
+  EXPECT_THAT(ends_of(10, {{"length", 1.0}, {"max_duration", 3.0}}), ElementsAre(2, 4, 6, 8, 10));
+}
+
+TEST(SegmentByDistance, CutsByTimeWhereStampsAreRoundedOrStepBack) {
+  // Five frames a second at great stamps, which a double holds to a quarter of a microsecond.
+  EXPECT_THAT(ends_of(11, {{"length", 1000.0}, {"max_duration", 1.0}},
+                      [](std::size_t k) { return 1.2e9 + 0.2 * static_cast<double>(k); }),
+              ElementsAre(5, 10, 11));
+  EXPECT_THAT(ends_of(6, {{"length", 1000.0}, {"max_duration", 1.0}},
+                      [](std::size_t k) { return k == 2 ? -5.0 : 0.4 * static_cast<double>(k); }),
+              ElementsAre(3, 6));  // 0, 0.4, -5, and the second from 1.2 on
 }
 
 TEST(SegmentByDistance, RefusesAMostLengthUnderTheLength) {

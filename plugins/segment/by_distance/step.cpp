@@ -23,8 +23,10 @@ struct ByDistance : WholeStep {
     double length = 15;
     std::optional<std::uint32_t> max_frames;
     std::optional<double> max_rotation;
+    std::optional<double> max_duration;
     std::optional<double> max_length;
     std::uint32_t max_segments = 1000;
+    double phase = 0;
     std::string check() const {
       return max_length && *max_length < length
                  ? "max_length must not be smaller than length, from which it grows"
@@ -52,6 +54,12 @@ struct ByDistance : WholeStep {
         .doc(
             "a frame whose rotation relative to its segment's first frame exceeds this begins a "
             "new segment; none: no limit");
+    is.param("max_duration", &Params::max_duration)
+        .unit("s")
+        .range(1e-3, 1e6)
+        .doc(
+            "a frame this long or longer after its segment's first begins a new segment; none: no "
+            "limit");
     is.param("max_length", &Params::max_length)
         .unit("m")
         .range(0.01, 1e6)
@@ -59,23 +67,38 @@ struct ByDistance : WholeStep {
             "'length' grows up to this where the path would give more than 'max_segments'; none: "
             "it does not grow");
     is.param("max_segments", &Params::max_segments).range(1, 1e9).doc("see 'max_length'");
+    is.param("phase", &Params::phase)
+        .unit("%")
+        .range(0, 0.5)
+        .doc("share of 'length' by which the first segment is shorter, which moves all cuts");
   }
 
   Out run(const In& in, const Params& params, Context&) const {
     Out out;
     const auto& poses = in.trajectory->T_world_frame;
-    std::function<bool(std::size_t, std::size_t)> turned;
-    if (params.max_rotation)
-      turned = [&](std::size_t first, std::size_t k) {
-        return angle(poses[first].inverse() * poses[k]) > *params.max_rotation;
+    std::function<bool(std::size_t, std::size_t)> breaks;
+    if (params.max_rotation || params.max_duration)
+      breaks = [&](std::size_t first, std::size_t k) {
+        return (params.max_rotation &&
+                angle(poses[first].inverse() * poses[k]) > *params.max_rotation) ||
+               (params.max_duration && later(*in.trajectory, first, k, *params.max_duration));
       };
     const auto path = travelled(*in.trajectory);
     const double length = grown_length(path.empty() ? 0 : path.back(), params.length,
                                        params.max_length, params.max_segments);
-    out.ranges =
-        ranges_from(*in.trajectory, starts_by_distance(path, length, params.max_frames, turned));
+    out.ranges = ranges_from(
+        *in.trajectory, starts_by_distance(path, length, params.max_frames, breaks, params.phase));
     out.poses = poses_of(out.ranges);
     return out;
+  }
+
+ private:
+  /// Whether frame k comes at least `duration` [s] after the first one. Stamps are written to the
+  /// microsecond, so that a second may come out a few of them short.
+  static bool later(const Trajectory& trajectory, std::size_t first, std::size_t k,
+                    double duration) {
+    constexpr double rounding = 1e-5;
+    return trajectory.stamps[k] - trajectory.stamps[first] >= duration - rounding;
   }
 };
 

@@ -6,6 +6,8 @@
 
 #include "plumb/data/archive.hpp"
 #include "plumb/plugin/context.hpp"
+#include "plumb/plugin/step_testing.hpp"
+#include "plumb/slam/step.hpp"
 #include "shared/thinning/voxel_means.hpp"
 
 namespace plumb::segment_merge {
@@ -139,6 +141,28 @@ TEST(SegmentMerge, KnowsItsRangeItsCentroidAndItsBox) {
   EXPECT_LT((segment.centroid - centroid_of(segment.cloud)).norm(), 1e-6);
   EXPECT_EQ(segment.box.low, box_of(segment.cloud).low);
   EXPECT_EQ(segment.origin(79), merged.range.T_segment_frame[1].translation.cast<float>());
+}
+
+TEST(SegmentMergeStep, TakesTheMiddleFrameAloneWhenToldTo) {
+  const Merged merged({scan(1, 40), scan(2, 30), scan(3, 20), scan(4, 10)});
+  StepUnderTest step(*plumb_module());
+  step.each("frames", merged.frames).with("ranges", merged.range);
+  TestContext context;
+  EXPECT_EQ(step.run<Segment>("segment", context).cloud.size(), 100u);
+  step.set("middle_frame_only", true);
+  const auto one = step.run<Segment>("segment", context);
+  const Cloud& third =
+      merged.frames[2].cloud;  // of four frames the one whose pose is the segment's
+  ASSERT_EQ(one.cloud.size(), third.size());
+  EXPECT_EQ(one.cloud.intensity, third.intensity);
+  EXPECT_EQ(one.frame, std::vector<std::uint16_t>(third.size(), 2));
+  EXPECT_EQ(one.range.size(), 4u);
+  for (std::size_t k = 0; k < third.size(); ++k)
+    EXPECT_LT(
+        (one.cloud.point(k) - Motion(merged.range.T_segment_frame[2]) * third.point(k)).norm(),
+        3e-5f);
+  step.set("voxel_size", 1e-3);  // no two points share a voxel
+  EXPECT_EQ(step.run<Segment>("segment", context).cloud.size(), third.size());
 }
 
 TEST(SegmentMerge, MakesAnEmptySegmentOfEmptyFrames) {

@@ -1,5 +1,7 @@
 #include "plumb/slam/step.hpp"
 
+#include <memory>
+
 #include "merge.hpp"
 #include "plumb/data/counted.hpp"
 #include "plumb/plugin/module.hpp"
@@ -18,6 +20,7 @@ struct Merge : SegmentStep {
   };
   struct Params {
     double voxel_size = 0;
+    bool middle_frame_only = false;
   };
 
   static void describe(Declaration<Merge>& is) {
@@ -34,6 +37,9 @@ struct Merge : SegmentStep {
         .doc(
             "edge length of the voxels to downsample by while merging, as filter.voxel_grid does "
             "afterwards; 0 keeps all points");
+    is.param("middle_frame_only", &Params::middle_frame_only)
+        .doc("take the middle frame of each segment, whose coordinates are the segment's, alone")
+        .source("[Zhang2023] 1: one scan a second");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -42,7 +48,11 @@ struct Merge : SegmentStep {
                   counted(in.ranges->size(), "frames") + ", but got " +
                   std::to_string(in.frames.size()) +
                   ": wire frames and ranges of the same sequence");
-    const auto open = [&](std::size_t k) { return in.frames.open(k).shared(); };
+    const std::size_t middle = in.ranges->size() / 2;
+    const auto open = [&](std::size_t k) -> std::shared_ptr<const Frame> {
+      if (params.middle_frame_only && k != middle) return std::make_shared<const Frame>();
+      return in.frames.open(k).shared();
+    };
     std::size_t dropped = 0;
     Out out{params.voxel_size > 0 ? merge_thinned(*in.ranges, params.voxel_size, open, dropped)
                                   : merge(*in.ranges, open)};

@@ -6,18 +6,22 @@
 namespace plumb::point_pairs {
 
 Pose rigid_fit(std::span<const Eigen::Vector3f> from, std::span<const Eigen::Vector3f> to,
-               std::span<const std::uint32_t> pairs) {
+               std::span<const std::uint32_t> pairs, std::span<const double> weights) {
+  const auto weight = [&](std::size_t n) { return weights.empty() ? 1.0 : weights[n]; };
   Eigen::Vector3d mean_from = Eigen::Vector3d::Zero(), mean_to = Eigen::Vector3d::Zero();
-  for (const auto k : pairs) {
-    mean_from += from[k].cast<double>();
-    mean_to += to[k].cast<double>();
+  double total = 0;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    mean_from += weight(n) * from[pairs[n]].cast<double>();
+    mean_to += weight(n) * to[pairs[n]].cast<double>();
+    total += weight(n);
   }
-  mean_from /= static_cast<double>(pairs.size());
-  mean_to /= static_cast<double>(pairs.size());
+  mean_from /= total;
+  mean_to /= total;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto k : pairs)
-    covariance +=
-        (to[k].cast<double>() - mean_to) * (from[k].cast<double>() - mean_from).transpose();
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Eigen::Vector3d off = weight(n) * (to[pairs[n]].cast<double>() - mean_to);
+    covariance += off * (from[pairs[n]].cast<double>() - mean_from).transpose();
+  }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();

@@ -67,6 +67,16 @@ TEST(RigidFit, SeesThePairsThatAreNamedAlone) {
   EXPECT_LT(angle(error), 1e-5);
 }
 
+TEST(RigidFit, CountsAPairAsOftenAsItsWeightSays) {
+  const Pairs pairs = moved_points(8, 1, 0.5, 6);
+  const std::vector<std::uint32_t> repeated = {0, 1, 1, 2, 2, 2, 3, 5}, once = {0, 1, 2, 3, 4, 5};
+  const std::vector<double> weights = {1, 2, 3, 1, 0, 1};
+  const Pose judge = rigid_fit(pairs.from, pairs.to, repeated),
+             weighted = rigid_fit(pairs.from, pairs.to, once, weights);
+  EXPECT_LT((weighted.translation - judge.translation).norm(), 1e-11);
+  EXPECT_LT(angle(judge.inverse() * weighted), 1e-12);
+}
+
 TEST(Agreeing, KeepsPairsUpToAndWithTheLimit) {
   std::vector<Eigen::Vector3f> from(6, Eigen::Vector3f(0, 7, 0)), to;
   for (int k = 0; k < 6; ++k) to.push_back({static_cast<float>(k), 7, 0});

@@ -8,6 +8,7 @@
 #include "decompress.hpp"
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/module.hpp"
+#include "plumb/slam/io/frame_selection.hpp"
 #include "scan_cloud.hpp"
 
 namespace plumb::source_carmen {
@@ -27,6 +28,7 @@ struct Carmen : WholeStep {
     double min_range = 0.05;
     std::optional<double> max_range;
     std::optional<double> field_of_view;
+    io::FrameSelection selection;
   };
 
   static void describe(Declaration<Carmen>& is) {
@@ -63,6 +65,7 @@ struct Carmen : WholeStep {
         .doc(
             "angle from the first beam to the last, centred ahead; none: as the log says, or "
             "CARMEN's convention");
+    is.params(&Params::selection);
   }
 
   Out run(const In&, const Params& params, Context& context) const {
@@ -73,8 +76,8 @@ struct Carmen : WholeStep {
                                                                    : std::string(", a .clf file")));
     }
     const std::string text = unpacked(params.path);
-    auto log =
-        std::make_shared<const CarmenLog>(parse_carmen(params.path, text, parallel::on(context)));
+    const auto log = std::make_shared<const CarmenLog>(
+        used_of(parse_carmen(params.path, text, parallel::on(context)), params, context));
     const auto& scans = log->scans;
     if (scans.size() < 2)
       io::refuse(params.path,
@@ -109,6 +112,15 @@ struct Carmen : WholeStep {
       return Frame{static_cast<std::uint32_t>(k), cloud_of(scan, fan(scan), limits(scan))};
     };
     return out;
+  }
+
+  /// With the scans that are used alone.
+  static CarmenLog used_of(CarmenLog log, const Params& params, Context& context) {
+    if (params.selection.all()) return log;
+    const auto used = params.selection.indices(log.scans.size(), params.path.string());
+    count(context, "scans left out as told", log.scans.size() - used.size());
+    log.scans = io::selected(std::move(log.scans), used);
+    return log;
   }
 
   static Trajectory trajectory_of(const CarmenLog& log, bool use_odometry) {

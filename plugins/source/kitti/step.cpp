@@ -7,6 +7,7 @@
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/io/bin_file.hpp"
 #include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/io/frame_selection.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 
 namespace plumb::source_kitti {
@@ -21,6 +22,7 @@ struct Kitti : WholeStep {
   struct Params {
     std::filesystem::path path;
     std::optional<std::filesystem::path> poses, times, calibration;
+    io::FrameSelection selection;
   };
 
   static void describe(Declaration<Kitti>& is) {
@@ -36,9 +38,10 @@ struct Kitti : WholeStep {
         .doc(
             "calib.txt with the laser's extrinsics Tr: the poses are then the camera's; none: they "
             "are the laser's");
+    is.params(&Params::selection);
   }
 
-  Out run(const In&, const Params& params, Context&) const {
+  Out run(const In&, const Params& params, Context& context) const {
     io::require_folder(params.path, "give the folder of a sequence, with velodyne/*.bin");
     io::require_folder(params.path / "velodyne",
                        "the frames of a KITTI sequence are velodyne/*.bin");
@@ -52,10 +55,16 @@ struct Kitti : WholeStep {
     out.trajectory = read_kitti(poses, params.times.value_or(params.path / "times.txt"));
     io::require_pose_each(params.path, files.size(), poses, out.trajectory.size());
     if (params.calibration) camera_to_laser(out.trajectory, read_calibration(*params.calibration));
+    if (!params.selection.all()) {
+      const auto used = params.selection.indices(files.size(), params.path.string());
+      context.count("frames left out as told", files.size() - used.size());
+      files = io::selected(std::move(files), used);
+      out.trajectory = io::selected(std::move(out.trajectory), used);
+    }
 
     for (const auto& file : files) out.frames.keys.push_back(io::key_of(file));
-    out.frames.open = [files = std::move(files)](std::size_t k, Context& context) {
-      return io::frame_of(k, read_bin(files[k].path), context);
+    out.frames.open = [files = std::move(files)](std::size_t k, Context& of_frame) {
+      return io::frame_of(k, read_bin(files[k].path), of_frame);
     };
     return out;
   }

@@ -4,6 +4,7 @@
 #include "plumb/data/io/file_text.hpp"
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/io/bin_file.hpp"
+#include "plumb/slam/io/frame_selection.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 #include "scans.hpp"
 
@@ -23,6 +24,7 @@ struct MulRan : WholeStep {
     std::optional<std::filesystem::path> trajectory;
     Body poses_of = Body::sensor;
     double max_time_gap = 1;
+    io::FrameSelection selection;
   };
 
   static void describe(Declaration<MulRan>& is) {
@@ -45,6 +47,7 @@ struct MulRan : WholeStep {
         .unit("s")
         .range(0, 3600)
         .doc("time between two poses up to which scans between them are interpolated and kept");
+    is.params(&Params::selection);
   }
 
   Out run(const In&, const Params& params, Context& context) const {
@@ -59,6 +62,12 @@ struct MulRan : WholeStep {
                                   std::to_string(placing.scans.size()) +
                                   " lie within the time of " + poses_from.string() +
                                   ", but at least 2 are needed: give the trajectory of this drive");
+    if (!params.selection.all()) {
+      const auto used = params.selection.indices(placing.scans.size(), params.path.string());
+      context.count("frames left out as told", placing.scans.size() - used.size());
+      placing.scans = io::selected(std::move(placing.scans), used);
+      placing.trajectory = io::selected(std::move(placing.trajectory), used);
+    }
     if (params.poses_of == Body::vehicle)
       for (Pose& pose : placing.trajectory.T_world_frame) pose = pose * mulran_laser_on_vehicle();
 

@@ -72,6 +72,24 @@ TEST_F(Folder, FollowsAListInItsOwnOrderAndOutOfTheFolder) {
   EXPECT_EQ(sequence.frame(1).cloud.x[0], 0.0f);
 }
 
+TEST_F(Folder, LeavesOutFramesWithTheirPosesWhenTold) {
+  frames(6);
+  odometry(6);
+  auto late = run({{"skip_frames", std::int64_t{2}}});
+  ASSERT_EQ(late.frames.keys.size(), 4u);
+  EXPECT_EQ(late.trajectory.stamps[0], 2.5);
+  const Frame first = late.frame(0);
+  EXPECT_EQ(first.index, 0u);
+  EXPECT_EQ(first.cloud.x[0], 2.0f);
+  EXPECT_EQ(late.context.counts["frames left out as told"], 2u);
+  auto thin = run({{"drop_frames", 0.5}, {"drop_seed", std::int64_t{7}}});
+  EXPECT_EQ(thin.frames.keys.size(), 4u);  // 0, 2, 3 and 5
+  ASSERT_EQ(thin.frames.keys.size(), thin.trajectory.size());
+  for (std::size_t k = 0; k < thin.trajectory.size(); ++k)
+    EXPECT_EQ(thin.frame(k).cloud.x[0], static_cast<float>(thin.trajectory.stamps[k] - 0.5));
+  EXPECT_THAT(refusal({{"skip_frames", std::int64_t{5}}}), HasSubstr("leave 1"));
+}
+
 TEST_F(Folder, ReadsPlyFramesToo) {
   folder.write("frames/0.ply", ply_bytes(cloud_of(7)));
   folder.write("frames/1.ply", ply_bytes(cloud_of(8)));

@@ -6,6 +6,7 @@
 #include "plumb/plugin/module.hpp"
 #include "plumb/slam/io/cloud_file.hpp"
 #include "plumb/slam/io/frame_files.hpp"
+#include "plumb/slam/io/frame_selection.hpp"
 #include "plumb/slam/io/trajectory_file.hpp"
 #include "sequence_folder.hpp"
 
@@ -24,6 +25,7 @@ struct Sequence : WholeStep {
     std::filesystem::path path;
     std::optional<std::filesystem::path> trajectory;
     Coordinates coordinates = Coordinates::sensor;
+    io::FrameSelection selection;
   };
 
   static void describe(Declaration<Sequence>& is) {
@@ -41,13 +43,21 @@ struct Sequence : WholeStep {
                {"world", Coordinates::world,
                 "the clouds were already transformed by the trajectory's poses"}})
         .doc("coordinates that the clouds are stored in");
+    is.params(&Params::selection);
   }
 
-  Out run(const In&, const Params& params, Context&) const {
+  Out run(const In&, const Params& params, Context& context) const {
     auto files = io::sequence_frames(params.path);
     const auto poses_from = params.trajectory.value_or(params.path / "odometry.tum");
-    auto trajectory = std::make_shared<const Trajectory>(read_tum(poses_from));
-    io::require_pose_each(params.path, files.size(), poses_from, trajectory->size());
+    auto poses = read_tum(poses_from);
+    io::require_pose_each(params.path, files.size(), poses_from, poses.size());
+    if (!params.selection.all()) {
+      const auto used = params.selection.indices(files.size(), params.path.string());
+      context.count("frames left out as told", files.size() - used.size());
+      files = io::selected(std::move(files), used);
+      poses = io::selected(std::move(poses), used);
+    }
+    const auto trajectory = std::make_shared<const Trajectory>(std::move(poses));
 
     const bool world = params.coordinates == Coordinates::world;
     Out out;
@@ -55,8 +65,8 @@ struct Sequence : WholeStep {
     for (std::size_t k = 0; k < files.size(); ++k)
       out.frames.keys.push_back(key_of_frame(files[k], world, trajectory->T_world_frame[k]));
     out.frames.open = [files = std::move(files), trajectory, world](std::size_t k,
-                                                                    Context& context) {
-      Frame frame = io::frame_of(k, read_cloud(files[k].path), context);
+                                                                    Context& of_frame) {
+      Frame frame = io::frame_of(k, read_cloud(files[k].path), of_frame);
       if (world) bring_to_frame(frame.cloud, trajectory->T_world_frame[k]);
       return frame;
     };

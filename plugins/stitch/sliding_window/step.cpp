@@ -23,6 +23,7 @@ struct SlidingWindow : WholeStep {
     std::uint32_t frames = 10;
     std::uint32_t after = 0;
     std::optional<double> voxel_size;
+    bool full_only = false;
   };
 
   static void describe(Declaration<SlidingWindow>& is) {
@@ -49,6 +50,9 @@ struct SlidingWindow : WholeStep {
         .doc(
             "points this close to a kept point are merged with it into their mean; none: every "
             "point is kept");
+    is.param("full_only", &Params::full_only)
+        .doc("a window with fewer scans than 'frames', as at the start, gives an empty submap")
+        .source("[Zhang2023] 2");
   }
 
   Out run(const In& in, const Params& params, Context& context) const {
@@ -59,8 +63,9 @@ struct SlidingWindow : WholeStep {
                   "; wire those of the same segments");
     std::vector<One<Segment>> scans(count);
     context.parallel(count, [&](std::size_t k) { scans[k] = in.segments.open(k); });
-    const Windows windows =
+    Windows windows =
         sliding_windows(count, in.edges ? &*in.edges : nullptr, params.frames, params.after);
+    if (params.full_only) empty_short_ones(windows, params.frames);
 
     Out out;
     out.submaps.resize(count);

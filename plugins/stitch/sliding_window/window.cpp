@@ -42,4 +42,9 @@ Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frame
   return windows;
 }
 
+void empty_short_ones(Windows& windows, std::size_t frames) {
+  for (std::size_t k = 0; k < windows.first.size(); ++k)
+    if (windows.end[k] - windows.first[k] < frames) windows.end[k] = windows.first[k];
+}
+
 }  // namespace plumb::stitch_sliding_window

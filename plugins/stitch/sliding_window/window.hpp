@@ -20,4 +20,7 @@ struct Windows {
 Windows sliding_windows(std::size_t count, const Edges* edges, std::size_t frames,
                         std::size_t after);
 
+/// Empties the windows of fewer than `frames` scans. Source: [Zhang2023] 2 merges full ones only.
+void empty_short_ones(Windows& windows, std::size_t frames);
+
 }  // namespace plumb::stitch_sliding_window

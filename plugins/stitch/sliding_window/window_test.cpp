@@ -46,6 +46,17 @@ TEST(SlidingWindow, DoesNotReachOverWhereItStartedAgain) {
   EXPECT_THAT(window(windows, 5), ElementsAre(4, 5));
 }
 
+TEST(SlidingWindow, IsEmptyUntilItIsFullWhenToldTo) {
+  const Edges edges = chain(6, {{0, 1}, {1, 2}, {2, 4, EdgeKind::neighbour}, {4, 5}});
+  auto windows = sliding_windows(6, &edges, 2, 0);
+  empty_short_ones(windows, 2);
+  EXPECT_THAT(window(windows, 0), IsEmpty());
+  EXPECT_THAT(window(windows, 1), ElementsAre(0, 1));
+  EXPECT_THAT(window(windows, 2), ElementsAre(1, 2));
+  EXPECT_THAT(window(windows, 4), IsEmpty());  // it has started again
+  EXPECT_THAT(window(windows, 5), ElementsAre(4, 5));
+}
+
 TEST(SlidingWindow, IsEmptyBeforeTheFirstAcceptedScan) {
   const Edges edges = chain(3, {{1, 2}});
   EXPECT_THAT(window(sliding_windows(3, &edges, 4, 0), 0), IsEmpty());
@@ -72,7 +83,8 @@ struct Drive {
   }
 };
 
-std::vector<Segment> groups_of(const Drive& drive, ParameterValue voxel_size) {
+std::vector<Segment> groups_of(const Drive& drive, ParameterValue voxel_size,
+                               bool full_only = false) {
   const Step& step = *plumb_module()->steps[0];
   std::vector<PortInput> inputs(3);
   inputs[0].wired = inputs[1].wired = true;
@@ -89,8 +101,9 @@ std::vector<Segment> groups_of(const Drive& drive, ParameterValue voxel_size) {
   inputs[1].one = any_value(drive.poses);
   std::vector<PortOutput> outputs(1);
   TestContext context;
-  step.run(step.parameters({{"frames", std::int64_t{3}}, {"voxel_size", voxel_size}}).get(), inputs,
-           outputs, context);
+  const ParameterValues values{
+      {"frames", std::int64_t{3}}, {"voxel_size", voxel_size}, {"full_only", full_only}};
+  step.run(step.parameters(values).get(), inputs, outputs, context);
   std::vector<Segment> submaps;
   for (const auto& value : outputs[0].many) submaps.push_back(*value.as<Segment>());
   return submaps;
@@ -110,6 +123,13 @@ TEST(SlidingWindow, StitchesInTheNewestScansCoordinates) {
   EXPECT_EQ(submaps[4].box.high, box_of(submaps[4].cloud).high);
   for (const auto& group : submaps)
     for (const float z : group.cloud.z) EXPECT_EQ(z, 0);  // planar stays planar
+}
+
+TEST(SlidingWindow, GivesNoSubmapOfAWindowThatIsNotFullWhenToldTo) {
+  const auto submaps = groups_of(Drive(), std::monostate{}, true);
+  ASSERT_EQ(submaps.size(), 5u);
+  for (const int k : {0, 1}) EXPECT_TRUE(submaps[k].cloud.empty()) << k;
+  for (const int k : {2, 3, 4}) EXPECT_EQ(submaps[k].cloud.size(), 6u) << k;
 }
 
 TEST(SlidingWindow, ThinsToOnePointACell) {

@@ -1,7 +1,10 @@
 """`plumb compare` runs a pipeline and variants of it on the same inputs and says what differs."""
 import json
+import math
 
-from plumb_test import (PIPELINES, STEP_FAILED, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused)
+from plumb_test import (DONE, NOTHING, PIPELINES, STEP_FAILED, WORSE, WRONG_COMMAND_LINE, WRONG_INPUT, files_of, plumb, refused)
+
+COMPARED = (DONE, WORSE)  # which of the two these small rooms make of it does not matter here
 
 SMALL = """plumb: 1
 name: chained
@@ -49,7 +52,7 @@ def files(folder, seeds=(1, 2)):
 def test_means_are_those_of_the_runs_that_it_keeps(folder):
     command, rooms = files(folder)
     inputs = [word for room in rooms for word in ("--input", room)]
-    said = json.loads(plumb(*command, *inputs, "-o", folder / "out", "--json", "--quiet").out)
+    said = json.loads(plumb(*command, *inputs, "-o", folder / "out", "--json", "--quiet", code=COMPARED).out)
     assert said["variants"] == ["chained", "loose"] and said["inputs"] == ["rooms_1", "rooms_2"]
     numbers = {number["name"]: number for number in said["numbers"]}
     assert {"error.fine.ate", "matching time", "matching iterations", "time"} <= set(numbers) and "error.before.ate" not in numbers
@@ -59,21 +62,24 @@ def test_means_are_those_of_the_runs_that_it_keeps(folder):
             kept = folder / "out" / name / room.name
             judged = json.loads(plumb("evaluate", room, kept / "trajectory.tum", "--json").out)["after"]["ate_rmse"]
             assert abs(value - judged) < 1e-5, (name, room, value, judged)
-        assert abs(of["mean"] - sum(of["values"]) / 2) < 1e-12
-    assert abs(ate["loose"]["less_by"] - 100 * (1 - ate["chained"]["mean"] / ate["loose"]["mean"])) < 1e-9
-    low, high = ate["loose"]["less_by_interval"]
-    assert low <= ate["loose"]["less_by"] <= high
+        assert abs(of["mean"] - math.sqrt(of["values"][0] * of["values"][1])) < 1e-12
+    against = ate["loose"]["against"]
+    assert abs(against["ratio"] - ate["loose"]["mean"] / ate["chained"]["mean"]) < 1e-9
+    low, high = against["interval"]
+    assert low <= against["ratio"] <= high and against["on_these_data"]
 
 
 def test_table_has_a_row_a_number_and_a_line_a_run(folder):
     command, rooms = files(folder, seeds=[1])
     said = plumb(*command, "--input", rooms[0] / "log.clf", "--set", f"truth={rooms[0]}/truth.tum", "--metric", "error.*.ate",
-                 "--time", "filter.")
-    said.has("chained on log.clf:", "loose on log.clf:", "error.before.ate [m]", "error.fine.ate [m]", "filter.* time [CPU s]",
-             "less by", "Means over 1 input.")
-    assert "error.fine.ate_max" not in said.out
-    before = next(line for line in said.out.splitlines() if line.startswith("error.before.ate"))
-    assert before.endswith("0.0 %"), before  # nothing that came before the variants differ
+                 "--time", "filter.", "--primary", "error.fine.ate", code=COMPARED)
+    said.has("chained on log.clf:", "loose on log.clf:", "error.before.ate [m]", "error.fine.ate [m], which decides", "filter.* time [CPU s]",
+             "on these data", "a statement beyond these data needs 6 inputs")
+    assert "error.fine.ate_max" not in said.out and said.out.startswith("error.fine.ate"), said
+    block = said.out[said.out.index("error.before.ate"):].split("\n\n")[0]
+    assert "loose is the same as chained: equivalent" in block, block  # nothing that came before the variants differ
+    row = next(line for line in block.splitlines() if line.strip().startswith("log.clf")).split()
+    assert row[1] == row[2], row
 
 
 def test_refuses_in_one_sentence_before_anything_runs(folder):
@@ -126,7 +132,7 @@ def test_a_step_s_file_stays_in_the_output(folder):
 def test_an_input_with_a_dollar_in_its_name(folder):
     command, rooms = files(folder, seeds=[1])
     rooms[0].rename(folder / "rooms$truth")
-    said = json.loads(plumb(*command, "--input", folder / "rooms$truth", "--json", "--quiet").out)
+    said = json.loads(plumb(*command, "--input", folder / "rooms$truth", "--json", "--quiet", code=COMPARED).out)
     assert said["inputs"] == ["rooms$truth"]
 
 
@@ -148,9 +154,10 @@ def test_says_which_variant_failed_on_which_input(folder):
     (folder / "loose.yaml").write_text(LOOSE.replace("set: {matched.max_correspondence_distance: 0.001 m}", "set: {matched.max_correspondence_distance: 0.3 m}\n"
                                                      "replace:\n  lined: {use: filter.voxel_grid, from: scans, with: {voxel_size: 0.06 m}}"))
     said = plumb(*command, "--input", rooms[0], "--quiet", code=STEP_FAILED)
-    said.has("variant 'loose' on", "rooms_1", "step 'matched'", "needs normals")
-    refused(plumb(*command, "--input", rooms[0], "--metric", "error.fine.atr", "--quiet", code=STEP_FAILED), "variant 'chained'",
-            "error.fine.ate'")
+    said.has("variant 'loose' on", "rooms_1", "step 'matched'", "needs normals", "loose gives nothing to hold against chained: no result on 1 of 1 input")
+    assert said.err.strip().splitlines()[-1].startswith("plumb: 1 of 2 runs failed"), said
+    said = plumb(*command, "--input", rooms[0], "--metric", "error.fine.atr", "--quiet", code=NOTHING)
+    assert said.err.strip().splitlines()[-1].startswith("plumb: nothing was measured") and "error.fine.ate'" in said.err, said
 
 
 def test_the_paper_s_pipeline_takes_its_unimproved_variant(folder):
@@ -178,13 +185,13 @@ def test_another_program_s_trajectory_stands_beside_ours(folder):
 def test_the_bound_of_a_cache_is_held_over_all_runs(folder):
     command, rooms = files(folder)
     blobs = (folder / "store/blobs").rglob
-    plumb(*command, "--input", rooms[0], "--cache-dir", folder / "store")
+    plumb(*command, "--input", rooms[0], "--cache-dir", folder / "store", code=COMPARED)
     earlier = {blob.name for blob in blobs("*") if blob.is_file()}
     bounded = [*command, "--input", rooms[1], "--cache-size", "1kB"]
     refused(plumb(*bounded, code=WRONG_COMMAND_LINE), "--cache-size 1kB: bounds a cache, and there is none")
-    said = plumb(*bounded, "--cache-dir", folder / "store")
+    said = plumb(*bounded, "--cache-dir", folder / "store", code=COMPARED)
     assert said.err.count("cache: removed ") == 1 and said.err.count("cache: holds more than 1kB (--cache-size)") == 1, said
     kept = {blob.name for blob in blobs("*") if blob.is_file()}
     assert kept and earlier - kept, said
-    said = plumb(*bounded, "--cache-dir", folder / "store")  # the first of its runs does not remove what the second will use
+    said = plumb(*bounded, "--cache-dir", folder / "store", code=COMPARED)  # the first of its runs does not remove what the second will use
     assert "cache: removed" not in said.err and kept == {blob.name for blob in blobs("*") if blob.is_file()}, said

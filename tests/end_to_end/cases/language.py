@@ -1,14 +1,14 @@
 """The page of the language, pipelines/README.md: its examples are pipelines and presets, and it has every key.
 
 A fenced block is `yaml file=NAME`, a whole pipeline or preset (with `over=PIPELINE`, one that is also laid over another), `yaml steps`, steps that are added
-to street.yaml, or `sh`, a command a line.
+to street.yaml, `yaml experiment=NAME`, an experiment over them, or `sh`, a command a line.
 """
 import json
 import re
 import shlex
 import textwrap
 
-from plumb_test import PIPELINES, SOURCE, plumb
+from plumb_test import PIPELINES, SOURCE, WRONG_INPUT, plumb
 
 PAGE = PIPELINES / "README.md"
 INPUT = ["--set", "input=."]
@@ -42,6 +42,30 @@ def test_every_example_checks(folder):
         plumb("check", folder / name, *INPUT).has("good")
         if over:
             plumb("check", folder / over, "--preset", folder / name, *INPUT).has("good")
+
+
+def test_every_experiment_can_be_run(folder):
+    """But for its inputs, which are not there."""
+    examples(folder)
+    found = [(marks["experiment"], text) for _, marks, text in blocks() if "experiment" in marks]
+    assert found
+    for name, text in found:
+        (folder / "inner").mkdir(exist_ok=True)
+        for file in folder.glob("*.yaml"):
+            (folder / "inner" / file.name).write_text(file.read_text())
+        (folder / "inner" / name).write_text(text)
+        plumb("compare", folder / "inner" / name, code=WRONG_INPUT).has("input '../street': there is no such file or folder")
+        (folder / "street").mkdir()
+        (folder / "street/odometry.tum").write_text("0 0 0 0 0 0 0 1\n")
+        plumb("compare", folder / "inner" / name, code=WRONG_INPUT).has("input '../mall': there is no such file or folder")
+
+
+def test_the_page_has_every_key_of_experiments(folder):
+    reader = (SOURCE / "framework/plumb/slam/experiment/experiment_file.cpp").read_text()
+    keys = re.findall(r'"([a-z_]+)"', re.search(r"known = \{(.*?)\};", reader, re.S)[1])
+    assert {"experiment", "primary", "sweep_by"} < set(keys), keys
+    missing = [key for key in keys if f"`{key}`" not in PAGE.read_text()]
+    assert not missing, missing
 
 
 def test_every_command_works(folder):

@@ -5,7 +5,7 @@
 import os
 import shutil
 
-from plumb_test import CASCADE, PIPELINES, SOURCE, WRONG_INPUT, plumb, skip
+from plumb_test import CASCADE, PIPELINES, SOURCE, WRONG_INPUT, plumb, shipped_pipelines, skip
 
 FORMER = SOURCE / "tests/end_to_end/former"
 
@@ -75,7 +75,7 @@ def test_the_result_is_put_in_place_as_a_whole(folder):
 
 
 def test_shipped_pipelines_need_no_migration(folder):
-    for pipeline in sorted(PIPELINES.rglob("*.yaml")):
+    for pipeline in shipped_pipelines():
         assert not plumb("resolve", pipeline).err
         before = pipeline.read_bytes()
         plumb("migrate", pipeline).has("nothing to do")

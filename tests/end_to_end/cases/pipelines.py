@@ -1,11 +1,14 @@
 """Every pipeline and preset runs whole on a small sequence and takes most of the drift out, judged by the truth."""
 import json
+import re
 
 import numpy as np
+import yaml
 from scipy.spatial.transform import Rotation, Slerp
 
 from judge import Trajectory, frames_of, points_of
-from plumb_test import CAR, CASCADE, PIPELINES, PLANAR, STEP_FAILED, UNIMPROVED, cascade, plumb, refused, score, sequence
+from plumb_test import (CAR, CASCADE, DONE, PIPELINES, PLANAR, STEP_FAILED, UNIMPROVED, WORSE, WRONG_INPUT, cascade, left_out, plumb, refused, score, sequence,
+                        skip)
 
 HANDHELD = PIPELINES / "presets/handheld_solid_state.yaml"
 MULRAN = PIPELINES / "presets/mulran_os1_64.yaml"
@@ -13,8 +16,56 @@ FILES = ["graph.g2o", "map.ply", "metrics.json", "run.lock.yaml", "trajectory.tu
 
 
 def test_all_are_known_to_these_cases(folder):
-    """A new pipeline needs a case here."""
-    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([CASCADE, CAR, HANDHELD, MULRAN, PLANAR, UNIMPROVED, PIPELINES / "judge2d.yaml", PIPELINES / "plumb.yaml"])  # the last four: planar.py, compare.py, recommended.py
+    """A new pipeline needs a case here, and so does an experiment."""
+    experiments = [PIPELINES / "experiments" / name for name in ("packages.yaml", "unimproved.yaml", "voxel_size.yaml")]  # the next cases
+    elsewhere = [PLANAR, UNIMPROVED, PIPELINES / "judge2d.yaml", PIPELINES / "plumb.yaml"]  # planar.py, compare.py, recommended.py
+    elsewhere += [PIPELINES / f"presets/{name}.yaml" for name in ("tang2024_literal", "zhang2023_literal", "zhang2023_literal_unimproved")]  # literal.py
+    assert sorted(PIPELINES.rglob("*.yaml")) == sorted([*experiments, CASCADE, CAR, HANDHELD, MULRAN, *elsewhere])
+
+
+def test_experiments_can_be_run(folder):
+    """All but the inputs is there: what they name is read before the first input is looked at."""
+    for file in sorted((PIPELINES / "experiments").glob("*.yaml")):
+        refused(plumb("compare", file, "--input", folder / "nowhere", code=WRONG_INPUT), f"--input {folder}/nowhere: there is no such file or folder")
+
+
+def lacking(experiment):
+    """The steps that an experiment names and this build left out."""
+    return set(re.findall(r"use: ([a-z0-9_.]+)", experiment.read_text())) & set(left_out())
+
+
+def test_every_variant_of_an_experiment_is_a_sound_pipeline(folder):
+    """All of them are planned, and their modules loaded, before the first run, which fails: it finds nothing to read."""
+    (folder / "empty").mkdir()
+    for file in sorted((PIPELINES / "experiments").glob("*.yaml")):
+        if lacking(file):
+            plumb("compare", file, "--input", folder / "empty", "--quiet", code=WRONG_INPUT).has("is not in this build")
+        else:
+            said = plumb("compare", file, "--input", folder / "empty", "--json", "--quiet", code=STEP_FAILED)
+            runs = json.loads(said.out)["runs"]
+            assert len(runs) > 1 and all("failed: step '" in f"failed: {run['failed']}" for run in runs), said
+
+
+def test_every_variant_of_packages_runs_on_a_street(folder):
+    file = PIPELINES / "experiments/packages.yaml"
+    if missing := lacking(file):
+        skip(f"this build left out {', '.join(sorted(missing))}")
+    said = plumb("compare", file, "--input", sequence("street"), "--cache-dir", folder / "cache", "--json", "--quiet", code=(DONE, WORSE))
+    outcome = json.loads(said.out)
+    assert len(outcome["runs"]) == len(outcome["variants"]) >= 13 and not any("failed" in run for run in outcome["runs"]), said
+    decides = next(number for number in outcome["numbers"] if number["name"] == "error.fine.ate")
+    values = {variant: of["values"][0] for variant, of in decides["variants"].items()}
+    assert len(values) == len(outcome["variants"]) and all(value is not None for value in values.values()), values
+    assert len(set(values.values())) > len(values) / 2, f"parts that change nothing were not exchanged: {values}"
+
+
+def test_the_page_of_experiments_has_every_variant_of_packages(folder):
+    page = (PIPELINES / "experiments/README.md").read_text()
+    variants = list(yaml.safe_load((PIPELINES / "experiments/packages.yaml").read_text())["variants"])
+    explained = re.findall(r"^\| `(\w+)` \|", page.partition("<!--")[0], re.M)
+    assert explained == variants, set(explained) ^ set(variants)
+    judged = re.findall(r"^\| `(\w+)` \|", page.partition("<!--")[2], re.M)
+    assert sorted(judged) == sorted(variants), set(judged) ^ set(variants)
 
 
 def test_all_check_clean(folder):

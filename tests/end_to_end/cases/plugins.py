@@ -5,7 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb_test import BUILD, CASCADE, PLUMB, SOURCE, WRONG_INPUT, nothing_left, plumb, sequence, skip, step_names
+from plumb_test import BUILD, CASCADE, SOURCE, WRONG_INPUT, installation, nothing_left, plumb, refused, sequence, skip, step_names, steps_by_library
 
 
 def run(*command, **options):
@@ -24,8 +24,8 @@ def copy_of_source(to):
     return root
 
 
-def configure(root, build):
-    run("cmake", "-S", root, "-B", build, "-G", "Ninja", "-DPLUMB_TESTS=OFF", "-DPLUMB_BENCHMARKS=OFF")
+def configure(root, build, *options):
+    return run("cmake", "-S", root, "-B", build, "-G", "Ninja", "-DPLUMB_TESTS=OFF", "-DPLUMB_BENCHMARKS=OFF", *options)
 
 
 def test_each_folder_can_be_left_out_of_the_configuration(folder):
@@ -33,15 +33,21 @@ def test_each_folder_can_be_left_out_of_the_configuration(folder):
         skip("ninja is not on this machine")
     root = copy_of_source(folder)
     folders = sorted(f.parent.relative_to(root / "plugins") for f in (root / "plugins").glob("*/*/CMakeLists.txt"))
-    steps = [folder for folder in folders if folder.parts[0] != "shared"]  # what those use is no step
-    assert len(steps) >= 30
+    folders = [folder for folder in folders if folder.parts[0] != "shared"]  # what those use is no step
     configure(root, folder / "build")
+
+    def targets():
+        return (folder / "build/build.ninja").read_text()
+
+    # Steps whose libraries are not on this machine are left out in any case.
+    whole = targets()
+    steps = [step for step in folders if f"build step_{'_'.join(step.parts)}:" in whole]
+    assert len(steps) >= 30 and whole.count("build step_") == len(steps)
     for step in steps:
         shutil.move(root / "plugins" / step, folder / "away")
         configure(root, folder / "build")
-        targets = (folder / "build/build.ninja").read_text()
         gone = "step_" + "_".join(step.parts)
-        assert f"build {gone}:" not in targets and targets.count("build step_") == len(steps) - 1, step
+        assert f"build {gone}:" not in targets() and targets().count("build step_") == len(steps) - 1, step
         shutil.move(folder / "away", root / "plugins" / step)
 
 
@@ -72,18 +78,44 @@ def refuses_the_cascade(folder, step, **options):
     nothing_left(folder / "refused")
 
 
-def installation(folder):
-    """The command and its modules, copied into a folder where single modules can be changed. Returns (program, modules, environment)."""
-    modules = folder / "lib/plumb"
-    modules.mkdir(parents=True)
-    modules.chmod(0o755)
-    (folder / "bin").mkdir()
-    shutil.copy(PLUMB, folder / "bin/plumb")
-    for name in ("libplumb", "libplumb_slam"):
-        shutil.copy(next((BUILD / "lib").glob(f"{name}.so.*.*")), folder / f"lib/{name}.so.0")
-    for file in (BUILD / "lib/plumb").iterdir():
-        shutil.copy(file, modules / file.name)
-    return folder / "bin/plumb", modules, {"LD_LIBRARY_PATH": str(folder / "lib")}
+def test_without_optional_libraries_their_steps_are_left_out_and_that_is_said(folder):
+    """By CMake; by doctor and by whoever names one, in an installation without these modules."""
+    if not shutil.which("ninja"):
+        skip("ninja is not on this machine")
+    root, needing = copy_of_source(folder), steps_by_library()
+    said = configure(root, folder / "build", "-DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON", "-Dcgal_headers:PATH=", "-Dflann_headers:PATH=")
+    targets = (folder / "build/build.ninja").read_text()
+    every = {".".join(f.parts[-3:-1]) for f in (root / "plugins").glob("*/*/CMakeLists.txt")}
+    every = {step for step in every if not step.startswith("shared.")}
+    assert {step for step in every if f"build step_{step.replace('.', '_')}:" in targets} == every - set(needing)
+    program, modules, environment = installation(folder)
+    shutil.copy(folder / "build/lib/plumb/left_out.txt", modules / "left_out.txt")
+    for file in [file for file in modules.iterdir() if file.stem in needing]:
+        file.unlink()
+    told = plumb("doctor", program=program, environment=environment)
+    for library, package in set(needing.values()):
+        names = ", ".join(sorted(step for step, needed in needing.items() if needed == (library, package)))
+        assert f"{library} was not found: left out are {names}\n" in said, said
+        told.has(f"left out of this build: {names}: {library} was not found; install {package} and build again\n")
+    pipeline = folder / "shot.yaml"
+    pipeline.write_text(f"plumb: 1\nextends: {CASCADE}\nreplace:\n  fpfh: {{use: describe.shot, from: segments}}\n")
+    plumb("check", pipeline, "--set", "input=.", code=WRONG_INPUT, program=program, environment=environment).has(
+        "shot.yaml:4:15: step 'fpfh': 'describe.shot' is not in this build: PCL was not found; install libpcl-dev and build again.")
+    refused(plumb("inspect", "segment.planes", code=WRONG_INPUT, program=program, environment=environment),
+            "'segment.planes' is not in this build: CGAL 5.5 was not found; install libcgal-dev and build again")
+
+
+def test_a_list_of_what_was_left_out_that_others_may_write_is_refused_and_what_is_there_is_not_left_out(folder):
+    program, modules, environment = installation(folder)
+    listed = modules / "left_out.txt"
+    listed.write_text("prune.kmeans: it was not found; install it and build again\n")
+    listed.chmod(0o644)
+    assert "left out" not in plumb("doctor", program=program, environment=environment).out
+    listed.chmod(0o666)
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("left_out.txt may be written by everybody", "chmod go-w")
+    listed.chmod(0o644)
+    listed.write_text("prune.kmeans\n")
+    plumb("doctor", program=program, environment=environment, code=WRONG_INPUT).has("left_out.txt:1: expected 'STEP: WHY', found 'prune.kmeans'")
 
 
 def test_a_pipeline_that_names_a_missing_module_is_refused(folder):

@@ -143,6 +143,11 @@ void Bookkeeping::all_reused(const std::string& path, int pass, std::size_t item
   if (items > 0) observer_.event(told);
 }
 
+void Bookkeeping::from_earlier_run(const std::string& path, std::size_t results) {
+  const std::lock_guard lock(mutex_);
+  time_of(path).earlier += results;
+}
+
 void Bookkeeping::count(const std::string& path, std::string_view what, std::uint64_t n) {
   if (n == 0) return;
   const std::lock_guard lock(mutex_);

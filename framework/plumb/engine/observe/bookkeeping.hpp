@@ -22,6 +22,7 @@ struct StepTime {
               remembered = 0;  ///< made; taken from what the run remembers or from the store
   double cpu_seconds = 0;      ///< of its own, without the steps that it called for
   std::size_t peak_bytes = 0;  ///< the most that was held while it ran, by the step or by others
+  std::size_t earlier = 0;     ///< results that an earlier run had made, each counted once
 };
 
 /// What a step counted, over all its items and passes.
@@ -61,6 +62,9 @@ class Bookkeeping {
   void item(const ItemEvent& item);  ///< counts it and tells of it
   /// All items of a step at once, known from an earlier run without a look at them.
   void all_reused(const std::string& path, int pass, std::size_t items);
+
+  /// So many of the results that were reused are an earlier run's.
+  void from_earlier_run(const std::string& path, std::size_t results);
 
   void count(const std::string& path, std::string_view what, std::uint64_t n);
   void warn(const std::string& path,

@@ -149,7 +149,10 @@ void StepRun::reuse(std::vector<std::size_t>& items) {
     const std::size_t k = items[n];
     auto found = find(kept_keys_[k]);
     if (!found) return;
-    if (store && state_.results.said().note(kept_keys_[k])) say_again(*found);
+    if (store && state_.results.said().note(kept_keys_[k])) {
+      say_again(*found);
+      state_.books.from_earlier_run(plan_.path, 1);
+    }
     if (!state_.results.in_store(kept_keys_[k])) pins_[k] = std::move(found);
     Stopwatch::item(item_name(k), state_.pass, true);
     items[n] = nowhere;

@@ -77,9 +77,11 @@ bool StepRun::take_recalled(bool says) {
   if (whole || items) {
     const auto keys = whole ? std::span<const Hash128>(&known->whole, 1) : known->items;
     state_.results.store()->hold(keys);
-    for (const Hash128& key : keys) state_.results.said().note(key);
+    std::size_t earlier = 0;
+    for (const Hash128& key : keys) earlier += state_.results.said().note(key) ? 1 : 0;
     state_.books.step_begins(plan_.path, state_.pass, keys.size());
     state_.books.all_reused(plan_.path, state_.pass, keys.size());
+    state_.books.from_earlier_run(plan_.path, earlier);
     recalled_ = true;
   }
   if (says) say_recalled(*known);

@@ -155,6 +155,23 @@ TEST_F(Recall, NothingButTheDocumentsHasToBeThere) {
   EXPECT_EQ(second.loops[0].why, first.loops[0].why);
 }
 
+TEST_F(Recall, IsBookedAsAnEarlierRunsAndNotWhatTheRunItselfHadMade) {
+  const RunResult first = run(plan()), second = run(plan());
+  std::map<std::string, std::size_t> made;
+  std::size_t remembered = 0, earlier = 0;
+  for (const StepTime& time : first.times) {
+    made[time.path] = time.items;
+    remembered += time.remembered;  // pairs do not see poses: made in the first pass for all
+    EXPECT_EQ(time.earlier, 0u) << time.path;
+  }
+  EXPECT_GT(remembered, 0u);
+  for (const StepTime& time : second.times) {
+    earlier += time.earlier;
+    EXPECT_EQ(time.earlier, made[time.path] - time.items) << time.path;
+  }
+  EXPECT_GT(earlier, 0u);
+}
+
 TEST_F(Recall, WhatSomebodyAsksForAndIsGoneIsMadeAgain) {
   const std::string more =
       "  again: {use: test.write, from: {metrics: loop.solved.metrics}, with: {name: b.txt}}\n"

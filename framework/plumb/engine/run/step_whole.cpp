@@ -47,7 +47,10 @@ bool StepRun::find_whole() {
   if (lazy() || !(store || (keeping_ == Keeping::remembered && single))) return false;
   auto found = find(whole_key_);
   if (!found) return false;
-  if (store && state_.results.said().note(whole_key_)) say_again(*found);
+  if (store && state_.results.said().note(whole_key_)) {
+    say_again(*found);
+    state_.books.from_earlier_run(plan_.path, 1);
+  }
   if (!state_.results.in_store(whole_key_) || stays_in_memory(*found))
     whole_pin_ = std::move(found);
   return true;

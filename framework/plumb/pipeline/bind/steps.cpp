@@ -159,6 +159,10 @@ class Steps {
   }
 
   void unknown_step(const std::string& step, const Node& use) {
+    const auto left_out = registry_.left_out().find(use.text);
+    if (use.is_scalar() && left_out != registry_.left_out().end())
+      return reading_.fault(use.origin, "step '" + step + "': '" + use.text +
+                                            "' is not in this build: " + left_out->second + ".");
     std::vector<std::string> known;
     for (const StepDescription* description : registry_.all()) known.push_back(description->name);
     std::string hint = did_you_mean(use.text, known);

@@ -106,11 +106,14 @@ class Binder {
     for (std::size_t k = 0; k < ports().size(); ++k)
       for (const Source& source : *sources)
         if (fits(description(), ports()[k], source)) fitting.emplace_back(k, &source);
-    // `from: STEP` feeds a step's own input, not the scale of its lengths (Declaration::scale),
-    // which is named where it is meant.
+    // `from: STEP` feeds what a step needs. An optional input is named where that fits as well, so
+    // that a step may get one without a change to any pipeline; the scale of its lengths
+    // (Declaration::scale) is named in any case.
+    const auto optional = [&](const auto& fit) { return ports()[fit.first].optional; };
     std::erase_if(fitting, [&](const auto& fit) {
-      return ports()[fit.first].optional && ports()[fit.first].name == "scale";
+      return optional(fit) && ports()[fit.first].name == "scale";
     });
+    if (!std::all_of(fitting.begin(), fitting.end(), optional)) std::erase_if(fitting, optional);
     if (fitting.size() == 1) return wire(fitting[0].first, *fitting[0].second);
     mark(*sources);
     if (!fitting.empty()) return ambiguous(from, fitting, sources->size() > 1);

@@ -126,9 +126,17 @@ class Writer {
     for (const Entry& entry : node.entries) {
       const bool with = step != step_of_.end() && entry.key == "with";
       const std::string key = scalar(entry.key, false, false) + ":";
-      if (entry.value.is_map() && entry.key != "from" && entry.key != "start" &&
-          entry.key != "carry" && entry.key != "until") {
-        line(depth, key, unused_.contains(&entry.value) ? nothing_uses_it : "");
+      if (entry.value.is_map() && unused_.contains(&entry.value)) {
+        // A file that declares what it does not use would be refused.
+        line(depth, "# " + key + " " + flow(entry.value), nothing_uses_it);
+      } else if (entry.value.is_map() && !entry.value.entries.empty() &&
+                 std::ranges::all_of(entry.value.entries, [&](const Entry& inner) {
+                   return inner.value.is_map() && unused_.contains(&inner.value);
+                 })) {
+        line(depth, key + " {}", "");
+      } else if (entry.value.is_map() && entry.key != "from" && entry.key != "start" &&
+                 entry.key != "carry" && entry.key != "until") {
+        line(depth, key, "");
         if (with)
           parameters(entry.value, step->second, depth + 1);
         else

@@ -56,6 +56,10 @@ bool has_key(std::string_view text, const std::vector<std::string>& keys) {
   return blank;
 }
 
+bool is_experiment(std::string_view text) {
+  return has_key(text, {"experiment"}) && !has_key(text, {});  // the second: blank
+}
+
 std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
   const std::string name = "'" + file.string() + "' is ";
   if (text.starts_with(lock_first_line))
@@ -63,6 +67,9 @@ std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
                  "Give the pipeline that was run; or repeat the run itself: plumb run --locked " +
                      file.string() + " -o DIR."};
   const std::string kind = io::kind_of_content(text);
+  if (kind.empty() && is_experiment(text))
+    return Fault{name + "an experiment, not a pipeline.",
+                 "Run it: plumb compare " + file.string() + "."};
   if (kind.empty() || kind == "a pipeline") {
     if (has_key(text, {"plumb", "steps", "extends", "also", "set", "add", "replace", "remove"}))
       return std::nullopt;

@@ -45,8 +45,8 @@ std::optional<Loaded> load_pipeline(const std::filesystem::path& file, const Ove
 /// Applies `remove`, `replace`, `add` and `set` of an overlay's tree, in this order.
 void apply_overlay(Node& pipeline, const Node& overlay, Renamer& names, Diagnostics& diagnostics);
 
-/// Applies the edits that stand for one pipeline under an overlay's 'also': a preset may serve more
-/// pipelines than the one it extends.
+/// Applies edits that stand for one pipeline in a larger file: under an overlay's 'also', for a
+/// preset may serve more pipelines than the one it extends, or in an experiment.
 void apply_also(Node& pipeline, const Node& edits, Renamer& names, Diagnostics& diagnostics);
 
 /// Applies each "path=value" of the command line.

@@ -137,6 +137,33 @@ TEST_F(Overlays, NameWhatCannotBeSet) {
   EXPECT_THAT(told({"voxel=1m", "voxel=2m"}), HasSubstr("'voxel' is set twice"));
 }
 
+TEST_F(Overlays, EditsOfAnotherFileAreLaidOverBeforeWhatTheCommandLineSets) {
+  const auto text = std::make_shared<const std::string>(
+      "variants:\n  fine: {set: {voxel: 0.1 m, coarse.gate: [2 m, 1 m]}}\n  bad: {set: {voxle: 1 "
+      "m}}\n");
+  pipeline::Diagnostics none;
+  const auto tree = pipeline::parse_yaml(*text, "street/experiment.yaml", none);
+  ASSERT_TRUE(tree);
+  Overlay overlay;
+  overlay.sets = {"input=data"};
+  overlay.edits = {Edits{*tree->at("variants")->at("fine"), text}};
+  const Plan plan = read_pipeline(file_, overlay, test::registry());
+  EXPECT_EQ(value(plan, "segments", "leaf"), ParameterValue(0.1));
+  EXPECT_EQ(plan.repeats[0].passes, 2);
+  overlay.sets.push_back("voxel=0.2m");
+  EXPECT_EQ(value(read_pipeline(file_, overlay, test::registry()), "segments", "leaf"),
+            ParameterValue(0.2));
+  overlay.edits = {Edits{*tree->at("variants")->at("bad"), text}};
+  try {
+    read_pipeline(file_, overlay, test::registry());
+    FAIL() << "not refused";
+  } catch (const PipelineError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("street/experiment.yaml:3:15: the pipeline has no "
+                                        "parameter 'voxle'.\n  3 |   bad: {set: {voxle: 1 m}}\n"));
+    EXPECT_THAT(error.what(), HasSubstr("Did you mean 'voxel'?"));
+  }
+}
+
 constexpr const char* preset = R"(plumb: 1
 name: ransac
 extends: ../cascade.yaml

@@ -91,6 +91,7 @@ class Stack {
     loaded_.files.push_back(chain.links.front().file);
     for (std::size_t k = 1; k < chain.links.size(); ++k) lay_over(chain.links[k]);
     for (const fs::path& preset : overlay_.presets) stack(preset);
+    for (const Edits& edits : overlay_.edits) lay_over(edits);
     collect_references(loaded_);
     apply_sets(loaded_.tree, overlay_.sets, names_, diagnostics_);
     return std::move(loaded_);
@@ -103,6 +104,14 @@ class Stack {
     apply_overlay(loaded_.tree, link.tree, names_, diagnostics_);
     done_.push_back(link.canonical);
     loaded_.files.push_back(link.file);
+  }
+
+  void lay_over(const Edits& edits) {
+    if (edits.text) diagnostics_.read(edits.tree.origin.file, *edits.text);
+    Node tree = edits.tree;
+    names_.read_overlay(tree);
+    collect_references(loaded_);
+    apply_also(loaded_.tree, tree, names_, diagnostics_);
   }
 
   /// Lays over what of a preset's chain is not there yet.

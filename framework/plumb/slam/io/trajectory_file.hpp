@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "plumb/slam/trajectory.hpp"
 
@@ -17,6 +18,10 @@ enum class StampOrder { later, any };
 /// number, NaN, a quaternion of norm 0, a position more than 1e8 m off, no pose at all and, unless
 /// any `order` will do, a stamp that is not later than the one before.
 Trajectory read_tum(const std::filesystem::path& file, StampOrder order = StampOrder::later);
+
+/// The same of a text; `file` is for sentences.
+Trajectory parse_tum(std::string_view text, const std::filesystem::path& file,
+                     StampOrder order = StampOrder::later);
 
 /// Reads KITTI poses (12 numbers a line, a 3x4 matrix world_T_camera or world_T_frame) with the
 /// stamps of `times`, one a line. Throws Error as read_tum, and when the two files differ in length

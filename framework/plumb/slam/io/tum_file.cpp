@@ -20,13 +20,16 @@ constexpr double farthest = 1e8;  // [m] from the origin; UTM coordinates stay b
 }  // namespace
 
 Trajectory read_tum(const std::filesystem::path& file, StampOrder order) {
-  const FileBytes bytes(file);
-  const std::string kind = kind_of_content(bytes.view());
+  return parse_tum(io::FileBytes(file).view(), file, order);
+}
+
+Trajectory parse_tum(std::string_view text, const std::filesystem::path& file, StampOrder order) {
+  const std::string kind = kind_of_content(text);
   if (!kind.empty() && kind != "a trajectory (TUM)" && kind != "lines of numbers")
     refuse(file, "is not a TUM trajectory, it looks like " + kind +
                      ": give a text file with a line 'stamp tx ty tz qx qy qz qw' for each pose, "
                      "as a run's trajectory.tum");
-  Lines lines(bytes.view());
+  Lines lines(text);
   Trajectory result;
   std::array<double, 8> v;
   while (next_numbers(file, lines, ' ', v)) {

@@ -97,15 +97,22 @@ std::vector<Revisit> revisits_of(const std::vector<Pose>& truth) {
 Ghosting ghosting(const std::vector<std::filesystem::path>& frames,
                   const std::vector<Pose>& estimate, const std::vector<Pose>& truth) {
   const auto revisits = revisits_of(truth);
-  std::vector<double> estimated(revisits.size()), true_gaps(revisits.size());
+  const auto gaps = revisit_gaps(frames, revisits, {&estimate, &truth});
+  return {median(gaps[0]), median(gaps[1]), revisits.size()};
+}
+
+std::vector<std::vector<double>> revisit_gaps(const std::vector<std::filesystem::path>& frames,
+                                              const std::vector<Revisit>& revisits,
+                                              const std::vector<const std::vector<Pose>*>& poses) {
+  std::vector<std::vector<double>> gaps(poses.size(), std::vector<double>(revisits.size()));
   parallel_for(revisits.size(), [&](std::size_t k) {
     const auto [i, j] = revisits[k];
     const Cloud a = points_of(frames.at(i)), b = points_of(frames.at(j));
     const SearchTree tree(b);
-    estimated[k] = gap(a, b, tree, estimate[j].inverse() * estimate[i]);
-    true_gaps[k] = gap(a, b, tree, truth[j].inverse() * truth[i]);
+    for (std::size_t set = 0; set < poses.size(); ++set)
+      gaps[set][k] = gap(a, b, tree, (*poses[set])[j].inverse() * (*poses[set])[i]);
   });
-  return {median(estimated), median(true_gaps), revisits.size()};
+  return gaps;
 }
 
 double quantile(std::vector<double> values, double q) {

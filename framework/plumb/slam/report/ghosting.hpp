@@ -32,6 +32,12 @@ struct Ghosting {
 Ghosting ghosting(const std::vector<std::filesystem::path>& frames,
                   const std::vector<Pose>& estimate, const std::vector<Pose>& truth);
 
+/// The gap [m] of each revisit under several sets of poses, by set, then revisit: what Ghosting is
+/// the median of. Each frame is read once. Errors as ghosting().
+std::vector<std::vector<double>> revisit_gaps(const std::vector<std::filesystem::path>& frames,
+                                              const std::vector<Revisit>& revisits,
+                                              const std::vector<const std::vector<Pose>*>& poses);
+
 /// The value below which a share `q` (0 to 1) of `values` lies, interpolated linearly between
 /// neighbours; NaN for none.
 double quantile(std::vector<double> values, double q);
