@@ -34,7 +34,9 @@ struct Options {
   std::string format = "table";
   unsigned threads = 0;
   bool quiet = false, json = false, fail_fast = false;
-  StoreOption store{.otherwise = "none"};
+  StoreOption store{
+      .otherwise = "none",
+      .otherwise_of = "none; of an experiment's file PLUMB_CACHE_DIR, or ~/.cache/plumb"};
   CacheSize cache_size;
 };
 
@@ -250,12 +252,15 @@ void add_compare(Command& program) {
   command.footer(
       "The first variant is the pipeline as it is. A line says of each other one how much lower or "
       "higher it is, the 95 % interval,\n"
-      "and the verdict: better, worse, equivalent, not shown, or large but not proven. From six "
-      "inputs on it holds beyond them; of fewer it\n"
-      "is said of these data. A run that fails is counted and shown, and the others go on. An "
-      "experiment's file uses the cache by itself,\n"
-      "so that what is common is made once and a killed one goes on; times of what came from a "
-      "cache are not compared.\n"
+      "and the verdict: better, worse, equivalent, not shown, or large, not proven. From six "
+      "inputs on (of one variant; 7 of two, 10 of 19:\n"
+      "with m variants and n inputs 2m / 2^n must be at most 5 %) it holds for inputs of which "
+      "these are a sample; with fewer than six it is\n"
+      "said of these data, and not corrected for the number of variants. A run that fails is "
+      "counted and shown, and the others go on.\n"
+      "An experiment's file uses the cache by itself, so that what is common is made once and a "
+      "killed one goes on; times of what came from\n"
+      "a cache, also by another variant, are not compared: --cache-dir none measures them.\n"
       "Exit 0 when nothing is worse; 1 when anything is refused before the first run; 3 when a run "
       "failed; 5 when a variant is worse in the\n"
       "number that decides; 6 when nothing could be measured or compared. Of several the first of "

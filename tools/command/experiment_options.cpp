@@ -116,7 +116,8 @@ void ExperimentOptions::add_to(Command command) {
       .one_of({"grid", "paired", "one_at_a_time"});
   several("--input", inputs,
           "What the parameter 'input' is set to: a log, or a sequence's folder, of which log.clf, "
-          "truth.tum and plan.txt are used where they are there; may be given again");
+          "truth.tum, plan.txt and VARIANT.tum (parameter 'estimate') are used where they are "
+          "there; may be given again");
   several(
       "--set", sets,
       "A parameter, a row or a step's parameter, in all runs of the pipeline and its presets; a "

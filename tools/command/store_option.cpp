@@ -23,13 +23,14 @@ fs::path user_cache_folder() {
 }
 
 void StoreOption::add_to(Command& command) {
-  const bool asks_environment = otherwise.empty();
+  const std::string without = !otherwise_of.empty() ? otherwise_of
+                              : otherwise.empty() ? "PLUMB_CACHE_DIR, or the user's cache folder, "
+                                                    "~/.cache/plumb"
+                                                  : otherwise;
   command.add_option("--cache-dir", given,
-                     std::string("Folder in which results are kept, and from which a later run "
-                                 "takes what did not change; `none` keeps nothing. ") +
-                         (asks_environment ? "Without: PLUMB_CACHE_DIR, or the user's cache "
-                                             "folder, ~/.cache/plumb"
-                                           : "Without: " + otherwise));
+                     "Folder in which results are kept, and from which a later run takes what did "
+                     "not change; `none` keeps nothing. Without: " +
+                         without);
   command.add_option("--store", former, "Former name of --cache-dir").group("");
   command.add_flag("--trust-cache", trusted,
                    "Use the cache even where others own it or may write it: whoever can, decides "

@@ -15,6 +15,7 @@ class Command;  // command_line.hpp
 struct StoreOption {
   std::string otherwise;  ///< what is meant when the command line says nothing; "" for what the
                           ///< environment says, or the user's cache folder
+  std::string otherwise_of = {};        ///< the same for the help; "" for as `otherwise` has it
   std::string given = {}, former = {};  ///< by --cache-dir, and by --store, as it was called
   bool trusted = false;                 ///< also one that others own or may write
   bool refresh = false, no_cache = false;

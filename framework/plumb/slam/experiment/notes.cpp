@@ -81,7 +81,8 @@ std::vector<std::string> notes_of(const Outcome& outcome) {
                     "), disturbed alike for all variants; a run gives the same each time.");
   if (has_cached(outcome))
     notes.push_back(
-        "* was spent in part in earlier runs, and is not compared: --cache-dir none measures it.");
+        "* was spent in part in earlier runs or by another variant, and is not compared: "
+        "--cache-dir none measures it.");
   for (std::size_t v = 0; v < m.variants.size(); ++v)
     for (std::size_t k = 0; k < m.inputs.size(); ++k)
       for (std::size_t r = 0; r < m.replicates; ++r)
