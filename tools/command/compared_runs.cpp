@@ -41,14 +41,14 @@ ComparedFigures figures_asked(const Experiment& experiment) {
   return {experiment.metrics, experiment.timed, experiment.primary};
 }
 
-void require_timed(const std::vector<std::string>& timed, const Plan& pipeline) {
-  if (timed == ComparedFigures{}.timed) return;
-  for (const std::string& first : timed)
+void require_timed(const Experiment& experiment, const Plan& pipeline) {
+  if (experiment.timed == ComparedFigures{}.timed) return;
+  for (const std::string& first : experiment.timed)
     if (std::ranges::none_of(pipeline.steps, [&](const PlannedStep& step) {
           return step.description->name.starts_with(first);
         }))
       throw Error(
-          "--time " + first + ": no step of " + pipeline.files.front() +
+          experiment.timed_where + " " + first + ": no step of " + experiment.pipeline.string() +
           " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
@@ -96,7 +96,7 @@ ComparedRuns::ComparedRuns(const Experiment& experiment, const Registry& steps)
         say_warnings(runs_.back().plan);
       }
   measured_ = {names_of(variants_), sizes_of(experiment.inputs), experiment.replicates.count};
-  require_timed(experiment.timed, runs_.front().plan);
+  require_timed(experiment, runs_.front().plan);
   std::vector<const Plan*> first;
   for (std::size_t v = 0; v < variants_.size(); ++v) first.push_back(&runs_[index(v, 0, 0)].plan);
   require_disturbable(experiment, variants_, first);

@@ -175,7 +175,7 @@ Experiment ExperimentOptions::asked() const {
     throw UsageError("--input is missing: give the log or the folder to run on");
   require_different(made.inputs);
   made.metrics.insert(made.metrics.end(), metrics.begin(), metrics.end());
-  if (!timed.empty()) made.timed = timed;
+  if (!timed.empty()) made.timed = timed, made.timed_where = "--time";
   if (made.timed.empty()) made.timed = ComparedFigures{}.timed;
   if (!primary.empty()) made.primary = primary;
   if (!margin.empty()) made.margin = margin_of(margin);

@@ -276,6 +276,8 @@ def test_an_experiment_is_checked_before_anything_runs(folder):
     file.write_text(file.read_text().replace("primary: error.fine.ate\n", "").replace("voxle", "voxel"))
     plumb("compare", file, code=WRONG_INPUT).has("'primary' is missing")
     plumb("run", file, "-o", folder / "out", code=WRONG_INPUT).has("is an experiment, not a pipeline", "plumb compare")
+    file = experiment(folder, inputs, "variants: {same: {}}\ntime: [measure., regster.]\n")
+    refused(plumb("compare", file, code=WRONG_INPUT), f"{file}:6:7: 'time' regster.: no step of {folder / 'wheels.yaml'} uses one", "behind 'use'")
     file = experiment(folder, inputs, "variants: {same: {}}\nreplicates: {count: 2, seeds: true}\n")
     refused(plumb("compare", file, code=WRONG_INPUT), "no step of any variant has a parameter 'seed'")
     plumb("compare", file, "--save", folder / "a.doc", code=WRONG_COMMAND_LINE).has("its ending says how it is written")

@@ -86,7 +86,8 @@ struct Experiment {
   double margin = 0.05;                   ///< up to which variants count as equivalent
   std::vector<std::string> metrics = {};  ///< globs of further numbers; none: the usual ones
   std::vector<std::string> higher_is_better = {};  ///< globs; of all others lower is
-  std::vector<std::string> timed = {};             ///< how the names of the timed steps begin
+  std::vector<std::string> timed = {};             ///< how the `use` of the timed steps begins
+  std::string timed_where = "--time";              ///< that says so: "a.yaml:7:7: 'time'"
 };
 
 /// Reads an experiment (YAML). Throws PipelineError with every mistake and its place.

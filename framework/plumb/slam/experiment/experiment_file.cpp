@@ -233,7 +233,10 @@ class Reader : Values {
       to.margin = ratio_of(*margin, "'margin'", 0.0001, 0.5);
     to.metrics = texts_of(tree.at("metrics"), "'metrics'");
     to.higher_is_better = texts_of(tree.at("higher_is_better"), "'higher_is_better'");
-    to.timed = texts_of(tree.at("time"), "'time'");
+    if (const Node* time = tree.at("time")) {
+      to.timed = texts_of(time, "'time'");
+      to.timed_where = time->origin.text() + ": 'time'";
+    }
   }
 };
 

@@ -122,6 +122,7 @@ TEST_F(ExperimentFile, TakesSweepsMarginAndMetrics) {
   EXPECT_THAT(made.metrics, ElementsAre("error.*", "loops.kept"));
   EXPECT_THAT(made.higher_is_better, ElementsAre("loops.kept"));
   EXPECT_THAT(made.timed, ElementsAre("match."));
+  EXPECT_EQ(made.timed_where, (folder.path() / "e.yaml").string() + ":7:7: 'time'");
   EXPECT_EQ(made.sweep_by, SweepBy::one_at_a_time);
   ASSERT_EQ(made.axes.size(), 2u);
   EXPECT_EQ(made.axes[1].name, "coarse.gate");
