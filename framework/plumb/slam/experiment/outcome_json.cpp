@@ -1,6 +1,7 @@
 /// Outcomes for programs, whole: written, and read back as a baseline.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "plumb/data/error.hpp"
 #include "plumb/data/io/file_text.hpp"
@@ -122,11 +123,20 @@ Json json_of(const Judged& number, const Outcome& outcome) {
   return json;
 }
 
+/// A number that is not negative, has no fraction and fits into T. Throws Error.
+template <class T>
+T whole(const Json& json) {
+  const auto number = json.is_number_unsigned() ? json.get<std::uint64_t>() : 0;
+  if (!json.is_number_unsigned() || !std::in_range<T>(number))
+    throw Error("it has " + json.dump().substr(0, 40) + " where a count or a seed belongs");
+  return static_cast<T>(number);
+}
+
 Replicates replicates_of(const Json& json) {
   Replicates replicates;
-  replicates.count = json.at("count").get<std::size_t>();
-  replicates.seed = json.at("seed").get<std::uint64_t>();
-  replicates.skip_frames = json.at("skip_frames").get<std::uint32_t>();
+  replicates.count = whole<std::size_t>(json.at("count"));
+  replicates.seed = whole<std::uint64_t>(json.at("seed"));
+  replicates.skip_frames = whole<std::uint32_t>(json.at("skip_frames"));
   replicates.drop_frames = json.at("drop_frames").get<double>();
   replicates.phase = json.at("phase").get<bool>();
   replicates.seeds = json.at("seeds").get<bool>();
@@ -159,14 +169,14 @@ Measured measured_of(const Json& json, std::size_t replicates) {
   std::vector<InputSize> inputs;
   std::vector<std::string> names = json.at("inputs").get<std::vector<std::string>>();
   for (std::size_t k = 0; k < names.size(); ++k)
-    inputs.push_back({names[k], json.at("input_files").at(k).get<std::size_t>(),
-                      json.at("input_bytes").at(k).get<std::uint64_t>()});
+    inputs.push_back({names[k], whole<std::size_t>(json.at("input_files").at(k)),
+                      whole<std::uint64_t>(json.at("input_bytes").at(k))});
   if (replicates < 1 || replicates > most_cells || variants.size() > most_cells ||
       names.size() > most_cells || variants.size() * names.size() > most_cells / replicates)
     throw Error("it has more runs than anybody makes");
   Measured measured(variants, inputs, replicates);
   for (const Json& run : json.at("runs")) {
-    const auto r = run.at("replicate").get<std::size_t>();
+    const auto r = whole<std::size_t>(run.at("replicate"));
     if (r < 1 || r > replicates) throw Error("a run's replicate is none of those that it has");
     Cell& cell = measured.at(place_of(run.at("variant").get<std::string>(), variants),
                              place_of(run.at("input").get<std::string>(), names), r - 1);

@@ -151,6 +151,12 @@ TEST(Outcome, ThatIsNoneIsRefusedWithASentence) {
   EXPECT_THAT(changed("\"count\":2", "\"count\":999999999999"),
               HasSubstr("more runs than anybody"));
   EXPECT_THAT(changed("\"replicate\":2", "\"replicate\":3"), HasSubstr("none of those"));
+  for (const char* number : {"1e70", "66666666666666666666666", "-1", "0.5", "\"1\"", "null"})
+    EXPECT_THAT(changed("\"seed\":0", std::string("\"seed\":") + number),
+                HasSubstr("where a count or a seed belongs"))
+        << number;
+  EXPECT_THAT(changed("\"skip_frames\":0", "\"skip_frames\":4294967296"),
+              HasSubstr("has 4294967296 where"));
 }
 
 TEST(Outcome, IsComparableOnlyWithOneOfTheSameNumberReplicatesAndInputs) {
