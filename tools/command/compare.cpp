@@ -15,6 +15,7 @@
 #include "plumb/data/counted.hpp"
 #include "plumb/data/error.hpp"
 #include "plumb/engine/observe/event_file.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
 #include "plumb/slam/experiment/outcome.hpp"
 #include "replaced_file.hpp"
 #include "side_file.hpp"
@@ -86,6 +87,14 @@ void require_comparable(const std::optional<Outcome>& baseline, const Outcome& o
   if (!baseline) return;
   if (const std::string why = not_comparable(*baseline, outcome); !why.empty())
     throw NothingMeasured("--baseline " + outcome.baseline + ": cannot be compared with: " + why);
+}
+
+/// What of the baseline's nothing is held against now: it may be meant.
+void say_left_out(const std::optional<Outcome>& baseline, const Outcome& outcome) {
+  if (!baseline) return;
+  if (const auto left_out = only_in(*baseline, outcome); !left_out.empty())
+    std::cerr << "--baseline " << outcome.baseline
+              << ": also has what is not compared now: " << pipeline::joined(left_out) << "\n";
 }
 
 void save(const Options& options, const Outcome& outcome, bool& settled) {
@@ -197,6 +206,7 @@ int compare(Options& options) {
     make(options, runs, store.get());
     Outcome outcome = outcome_of(options, experiment, runs);
     require_comparable(baseline, outcome);
+    say_left_out(baseline, outcome);
     outcome.numbers = baseline ? judge_against(baseline->measured, outcome.measured, outcome.rules)
                                : judge(outcome.measured, outcome.rules);
     std::cout << text_of(outcome, options.json ? "json" : options.format);
@@ -236,7 +246,8 @@ void add_compare(Command& program) {
   auto options = std::make_shared<Options>();
   options->experiment.add_to(command);
   command.add_option("--baseline", options->baseline,
-                     "A result that --save FILE.json wrote: each variant against what it was then");
+                     "A result that --save FILE.json wrote: each variant against what it was then, "
+                     "by its name, on inputs of the same name, number of files and bytes");
   command.add_option("-o,--output", options->output,
                      "Keeps each run's results in OUTPUT/VARIANT/INPUT, of replicates in "
                      "replicate_N there");
@@ -263,8 +274,9 @@ void add_compare(Command& program) {
       "a cache, also by another variant, are not compared: --cache-dir none measures them.\n"
       "Exit 0 when nothing is worse; 1 when anything is refused before the first run; 3 when a run "
       "failed; 5 when a variant is worse in the\n"
-      "number that decides; 6 when nothing could be measured or compared. Of several the first of "
-      "5, 3, 6.\n\n"
+      "number that decides; 6 when nothing could be measured or compared, or a variant or an input "
+      "is not in the baseline. Of several the\n"
+      "first of 5, 3, 6.\n\n"
       "  plumb compare pipelines/zhang2023.yaml --variant "
       "unimproved=pipelines/presets/zhang2023_unimproved.yaml --input DIR1 --input DIR2\n"
       "  plumb compare pipelines/plumb.yaml --sweep voxel_size=0.3m,0.4m --input DIR --replicates "

@@ -186,13 +186,18 @@ def test_a_baseline_is_a_gate(folder):
         made = outcome(file, "--baseline", folder / "then.json", "--replicate-seed", seed)
         assert against(made, "wheels")["verdict"] == "equivalent", against(made, "wheels")
         assert all(number["unit"] != "CPU s" for number in made["numbers"]), "times are of another day"
+    plumb("compare", file, "--baseline", folder / "then.json", "--quiet").has("then.json: also has what is not compared now: variant same")
     said = plumb("compare", file, "--baseline", folder / "then.json", "--set", "odometry=ignore", "--quiet", code=WORSE)
     said.has(f"higher than in {folder / 'then.json'}", "worse")
     # What cannot be held against it is no verdict.
     refused(plumb("compare", file, "--baseline", folder / "then.json", "--primary", "match_rmse.fine", "--quiet", code=NOTHING), "cannot be compared", "error.fine.ate")
     refused(plumb("compare", file, "--baseline", folder / "then.json", "--replicates", 3, "--quiet", code=NOTHING), "replicates")
+    # Nor does a variant with another name, or an input that has lost its truth, beside others that have not.
+    renamed = experiment(folder, inputs, "replicates: {count: 2, drop_frames: 2 %, skip_frames: 2}\nvariants: {alike: {}}\n", name="renamed")
+    (inputs[5] / "truth.tum").unlink()
+    refused(plumb("compare", renamed, "--baseline", folder / "then.json", "--quiet", code=NOTHING), "not in it: variant alike, input rooms_6 (by name")
     other = experiment(folder, rooms(folder, 1, length="20m"), "replicates: {count: 2, drop_frames: 2 %, skip_frames: 2}\n", name="other")
-    refused(plumb("compare", other, "--baseline", folder / "then.json", "--quiet", code=NOTHING), "no input")
+    refused(plumb("compare", other, "--baseline", folder / "then.json", "--quiet", code=NOTHING), "not in it: input rooms_1 (by name")
     (folder / "odd.json").write_text("{}")
     refused(plumb("compare", file, "--baseline", folder / "odd.json", "--quiet", code=WRONG_INPUT), "odd.json: is not what plumb compare writes")
 

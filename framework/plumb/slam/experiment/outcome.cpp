@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plumb/data/short_number.hpp"
+#include "plumb/pipeline/yaml/diagnostics.hpp"
 
 namespace plumb::experiment {
 
@@ -47,6 +48,18 @@ std::string mean_text(const Outcome& outcome, std::size_t variant, const Judged&
   return mean ? short_number(*mean) : "-";
 }
 
+std::vector<std::string> only_in(const Outcome& outcome, const Outcome& other) {
+  const Measured &m = outcome.measured, &others = other.measured;
+  std::vector<std::string> only;
+  for (const std::string& variant : m.variants)
+    if (std::ranges::find(others.variants, variant) == others.variants.end())
+      only.push_back("variant " + variant);
+  for (const InputSize& input : m.inputs)
+    if (std::ranges::find(others.inputs, input) == others.inputs.end())
+      only.push_back("input " + input.name);
+  return only;
+}
+
 std::string not_comparable(const Outcome& then, const Outcome& now) {
   if (then.rules.primary != now.rules.primary)
     return "its number that decides is '" + then.rules.primary + "' and this one's '" +
@@ -55,15 +68,11 @@ std::string not_comparable(const Outcome& then, const Outcome& now) {
   if (a.count != b.count || a.skip_frames != b.skip_frames || a.drop_frames != b.drop_frames ||
       a.phase != b.phase || a.seeds != b.seeds)
     return "its replicates disturb something else than these, or are others in number";
-  const auto in_common = [](const auto& some, const auto& others) {
-    return std::ranges::any_of(
-        some, [&](const auto& one) { return std::ranges::find(others, one) != others.end(); });
-  };
-  if (!in_common(now.measured.inputs, then.measured.inputs))
-    return "no input of this one is in it by name, number of files and bytes";
-  if (!in_common(now.measured.variants, then.measured.variants))
-    return "no variant of this one is in it by name";
-  return "";
+  const std::vector<std::string> unknown = only_in(now, then);
+  if (unknown.empty()) return "";
+  return "not in it: " + pipeline::joined(unknown) +
+         " (by name, and of inputs by the number of files and bytes); leave them out, or make it "
+         "anew with --save";
 }
 
 }  // namespace plumb::experiment

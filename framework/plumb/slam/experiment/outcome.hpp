@@ -60,8 +60,12 @@ std::string outcome_json(const Outcome& outcome);
 /// Reads what outcome_json wrote, but for the verdicts. Throws Error: it is none.
 Outcome outcome_of_json(const std::filesystem::path& file);
 
-/// Why two outcomes cannot be held against each other, as the end of a sentence; empty when they
-/// can be: another primary number, replicates that disturb otherwise, no input in common.
+/// The variants and inputs of an outcome that another has not: "variant ratio2", "input in4".
+/// Inputs are the same by name, number of files and bytes.
+std::vector<std::string> only_in(const Outcome& outcome, const Outcome& other);
+
+/// Why `now` cannot be held against `then`, as the end of a sentence; empty when it can be: another
+/// primary number, replicates that disturb otherwise, a variant or an input that `then` has not.
 std::string not_comparable(const Outcome& then, const Outcome& now);
 
 }  // namespace plumb::experiment

@@ -12,6 +12,7 @@ namespace {
 
 using io::TestFolder;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -153,7 +154,7 @@ TEST(Outcome, ThatIsNoneIsRefusedWithASentence) {
   EXPECT_THAT(changed("\"replicate\":2", "\"replicate\":3"), HasSubstr("none of those"));
 }
 
-TEST(Outcome, IsComparableOnlyWithOneOfTheSameNumberReplicatesAndInputs) {
+TEST(Outcome, IsComparableOnlyWithOneOfTheSameNumberAndReplicatesThatHasAllOfIt) {
   const Outcome then = outcome();
   Outcome now = then;
   EXPECT_EQ(not_comparable(then, now), "");
@@ -163,11 +164,12 @@ TEST(Outcome, IsComparableOnlyWithOneOfTheSameNumberReplicatesAndInputs) {
   EXPECT_THAT(not_comparable(then, now), HasSubstr("replicates"));
   now = then, now.replicates.seed = 9;
   EXPECT_EQ(not_comparable(then, now), "") << "other draws of the same disturbances";
-  now = then;
-  for (InputSize& input : now.measured.inputs) input.bytes += 1;
-  EXPECT_THAT(not_comparable(then, now), HasSubstr("no input"));
-  now = then, now.measured.variants = {"c", "d"};
-  EXPECT_THAT(not_comparable(then, now), HasSubstr("no variant"));
+  now = then, now.measured.inputs[1].bytes += 1, now.measured.variants = {"a", "c"};
+  EXPECT_THAT(not_comparable(then, now), HasSubstr("not in it: variant c, input input_1 (by name"));
+  EXPECT_THAT(only_in(then, now), ElementsAre("variant b", "input input_1"));
+  now = then, now.measured.variants = {"a"}, now.measured.inputs.pop_back();
+  EXPECT_EQ(not_comparable(then, now), "") << "it need not be all of the other";
+  EXPECT_THAT(only_in(then, now), ElementsAre("variant b", "input input_1"));
 }
 
 TEST(Outcome, WithoutAnythingSharedSaysNothingDecides) {
