@@ -280,6 +280,10 @@ def test_an_experiment_is_checked_before_anything_runs(folder):
     said.has(f"{file}:6:15: the pipeline has no parameter 'voxle_size'.", "  odd: {set: {voxle_size: 0.2 m}}", "Did you mean 'voxel_size'?")
     file.write_text(file.read_text().replace("primary: error.fine.ate\n", "").replace("voxle", "voxel"))
     plumb("compare", file, code=WRONG_INPUT).has("'primary' is missing")
+    other = folder / "other.yaml"
+    other.write_text("plumb: 1\npipeline: wheels.yaml\nprimary: error.fine.ate\nvariants: {same: {}}\n")
+    plumb("compare", other, code=WRONG_INPUT).has("expected 'experiment: 1'", f"{other}:1:1: an experiment has no key 'plumb'.")
+    plumb("check", other, code=WRONG_INPUT).has("is an experiment, not a pipeline", "plumb compare")
     plumb("run", file, "-o", folder / "out", code=WRONG_INPUT).has("is an experiment, not a pipeline", "plumb compare")
     file = experiment(folder, inputs, "variants: {same: {}}\ntime: [measure., regster.]\n")
     refused(plumb("compare", file, code=WRONG_INPUT), f"{file}:6:7: 'time' regster.: no step of {folder / 'wheels.yaml'} uses one", "behind 'use'")
