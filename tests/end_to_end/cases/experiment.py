@@ -162,6 +162,9 @@ def test_nothing_measured_has_an_exit_code_of_its_own(folder):
     inputs = rooms(folder, 1)
     file = experiment(folder, inputs, "variants:\n  same: {}\n")
     refused(plumb("compare", file, "--primary", "error.fine.atr", "--quiet", code=NOTHING), "nothing was measured", "error.fine.atr", "Did you mean 'error.fine.ate'?")
+    # A step that is not there is told before the first run.
+    for words in (["--primary", "eror.fine.ate"], ["--metric", "eror.fine.*"]):
+        refused(plumb("compare", file, *words, code=NOTHING), "nothing was measured", "wheels.yaml: no number can be called 'eror.fine.", "the step 'error'")
     # A log by itself has no truth: what was to decide is not there.
     refused(plumb("compare", folder / "wheels.yaml", "--variant", "same=voxel_size=0.05m", "--input", inputs[0] / "log.clf", "--primary", "error.fine.ate", "--quiet",
                   code=NOTHING), "nothing was measured")
