@@ -4,7 +4,7 @@
     python3 tools/packages.py OUT [--input SEQUENCE]... [--simulated N] [--columns N] [--replicates N] [--page FILE] [--plumb FILE]
     python3 tools/packages.py --from RESULT.json [--page FILE]
 
-OUT becomes a folder with N simulated streets (ten, without which nothing can be shown of so many variants), the cache, and the result (packages.json, .csv, .md,
+OUT becomes a folder with N simulated streets (ten, without which none of so many variants can be better or worse), the cache, and the result (packages.json, .csv, .md,
 .svg). --input adds sequences of key frames from a car, with their truth.tum. What lies in OUT is not made again: killed, it goes on. Each time it says in
 another file what it makes (events_1.jsonl, events_2.jsonl, ...). --from writes the tables of a result that is there. The ten take an hour or two.
 """

@@ -52,6 +52,18 @@ void require_timed(const Experiment& experiment, const Plan& pipeline) {
           " uses one whose name begins so; give the beginning of a name that stands behind 'use'");
 }
 
+/// Before the first run, where it is known by then; exit code and all as after it.
+void require_numbers(const Experiment& experiment, const Plan& pipeline) {
+  std::vector<std::string> asked = experiment.metrics;
+  if (!experiment.primary.empty()) asked.push_back(experiment.primary);
+  std::erase_if(asked, [](const std::string& name) {  // made here, of no step
+    return name == "sharpness" || name == "time" || name.ends_with(" time") ||
+           name.ends_with(" iterations");
+  });
+  if (const std::string wrong = unmatchable(asked, pipeline); !wrong.empty())
+    throw NothingMeasured(experiment.pipeline.string() + ": " + wrong);
+}
+
 std::vector<std::string> names_of(const std::vector<experiment::Variant>& variants) {
   std::vector<std::string> names;
   for (const auto& variant : variants) names.push_back(variant.name);
@@ -134,6 +146,7 @@ std::string ComparedRuns::title(std::size_t v, std::size_t k, std::size_t r) con
 }
 
 void ComparedRuns::make(const RunsOptions& options) {
+  require_numbers(experiment_, runs_.front().plan);
   for (std::size_t k = 0; k < measured_.inputs.size(); ++k)
     for (std::size_t r = 0; r < measured_.replicates; ++r) {
       make_beside(k, r, options);

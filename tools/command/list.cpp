@@ -35,8 +35,10 @@ std::string type_text(const Type& type) {
 }
 
 void print_step(const StepDescription& step, const Licence& licence) {
-  std::cout << step.name << "  version " << step.version << ", a " << step.base() << "\n  "
-            << step.summary << "\n";
+  const std::string base = step.base();
+  const bool vowel = std::string("AEIOU").find(base.front()) != std::string::npos;
+  std::cout << step.name << "  version " << step.version << (vowel ? ", an " : ", a ") << base
+            << "\n  " << step.summary << "\n";
   if (!step.source.empty()) std::cout << "  Source: " << step.source << "\n";
   std::cout << "  Licence of its module: " << licence.text() << "\n";
   if (!licence.reason.empty()) std::cout << "      " << licence.reason << "\n";

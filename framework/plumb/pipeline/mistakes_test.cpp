@@ -71,9 +71,16 @@ TEST(Mistakes, InValues) {
               HasSubstr("'hubre' is not one of the choices"));
   EXPECT_THAT(told_with("loss: huber", "loss: hubre"), HasSubstr("Did you mean 'huber'?"));
   EXPECT_THAT(told_with("loss: huber", "share: 0.1"),
-              HasSubstr("'0.1' has no unit, expected a ratio"));
-  EXPECT_THAT(told_with("poses: ranges.poses}", "poses: ranges.poses}, with: {margin: 90 %}"),
-              HasSubstr("'90 %' has a unit, expected a bare number"));
+              AllOf(HasSubstr("'0.1' has no unit, expected a ratio"),
+                    HasSubstr("Write the unit: the share 0.1 is '10 %'.")));
+  EXPECT_THAT(told_with("loss: huber", "share: 5"),
+              HasSubstr("Write the unit, as in '5 %'; known: %."));
+  const auto margin = [](const std::string& value) {
+    return told_with("poses: ranges.poses}", "poses: ranges.poses}, with: {margin: " + value + "}");
+  };
+  EXPECT_THAT(margin("57 %"), AllOf(HasSubstr("'57 %' has a unit, expected a bare number"),
+                                    HasSubstr("Write 0.57.")));
+  EXPECT_THAT(margin("3 m"), HasSubstr("Leave out the 'm'."));
   EXPECT_EQ(told_with("loss: huber", "loss: none"), "");
   EXPECT_EQ(told_with("poses: ranges.poses}", "poses: ranges.poses}, with: {threshold: none}"), "");
 }

@@ -85,6 +85,8 @@ TEST(Mistakes, OfTakingSomethingElseForAPipeline) {
               HasSubstr("a.yaml' is the record of a run, not a pipeline."));
   EXPECT_THAT(told("# which?\nexperiment: 1\npipeline: city.yaml\n"),
               HasSubstr("a.yaml' is an experiment, not a pipeline.\n  Run it: plumb compare "));
+  EXPECT_THAT(told("plumb: 1\npipeline: city.yaml\nprimary: error.ate\n"),
+              HasSubstr("a.yaml' is an experiment, not a pipeline.\n"));
   EXPECT_THAT(told("1 2 3 4 0 0 0 1\n"),
               HasSubstr("is a trajectory (TUM), not a pipeline.\n  Give the YAML file"));
   const test::Folder folder;

@@ -4,6 +4,18 @@
 #include <numbers>
 
 namespace plumb {
+namespace {
+
+std::string written_in(const Unit& unit, double si) {
+  // Rounding to 12 digits hides what the factor adds: 0.01 * 5 deg.
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, si / unit.factor,
+                                 std::chars_format::general, 12)
+                       .ptr;
+  return std::string(buffer, end) + " " + unit.symbol;
+}
+
+}  // namespace
 
 const char* name_of(Quantity quantity) {
   switch (quantity) {
@@ -97,16 +109,15 @@ std::string shortest(double value) {
 }
 
 std::string written(double si, Quantity quantity) {
-  const Unit* shown = nullptr;  // the first unit listed is the one that people use
-  for (const Unit& unit : units())
-    if (!shown && unit.quantity == quantity) shown = &unit;
-  if (!shown) return shortest(si);
-  // Rounding to 12 digits hides what the factor adds: 0.01 * 5 deg.
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, si / shown->factor,
-                                 std::chars_format::general, 12)
-                       .ptr;
-  return std::string(buffer, end) + " " + shown->symbol;
+  std::string text;
+  for (const Unit& unit : units()) {
+    if (unit.quantity != quantity) continue;
+    const std::string in_unit = written_in(unit, si);
+    // The first unit listed is the one that people use, unless the number is odd there and round in
+    // another: 0.001 rad.
+    if (text.empty() || 2 * in_unit.size() <= text.size()) text = in_unit;
+  }
+  return text.empty() ? shortest(si) : text;
 }
 
 }  // namespace plumb

@@ -33,7 +33,8 @@ const std::vector<Unit>& units();          ///< all that are known
 const Unit* find_unit(std::string_view symbol);
 std::string known_units(Quantity quantity);  ///< "m, cm, mm, km"
 
-/// A value in SI as people write it: 0.3 -> "0.3 m", an angle in degrees, a ratio in percent.
+/// A value in SI as people write it: 0.3 -> "0.3 m", an angle in degrees, a ratio in percent; in
+/// another unit where that is half as long: 0.001 -> "0.001 rad", not "0.0572957795131 deg".
 std::string written(double si, Quantity quantity);
 
 /// The shortest decimal text that reads back as the same double.

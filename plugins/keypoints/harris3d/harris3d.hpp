@@ -41,7 +41,7 @@ struct HarrisOptions {
 /// Indices of the keypoints, ascending: of the points with normals those whose response is at least
 /// `threshold` and no less than that of any point within `radius`. The response is that of the
 /// mean of n n' over the normals n within `radius`. Throws Error where the cloud has no normals.
-/// Source: [Sipiran2011] for corners in space; PCL's HarrisKeypoint3D, without its refinement.
+/// Source: PCL's HarrisKeypoint3D, without its refinement; compare [Sipiran2011].
 std::vector<std::uint32_t> harris3d(const Cloud& cloud, const HarrisOptions& options);
 
 }  // namespace plumb::keypoints_harris3d

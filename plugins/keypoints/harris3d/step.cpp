@@ -19,7 +19,7 @@ struct KeypointsHarris3d : SegmentStep {
   };
 
   static void describe(Declaration<KeypointsHarris3d>& is) {
-    is.name("keypoints.harris3d").version(1).source("[Sipiran2011]; PCL, HarrisKeypoint3D");
+    is.name("keypoints.harris3d").version(1).source("PCL, HarrisKeypoint3D; compare [Sipiran2011]");
     is.summary("Keeps the points where the normals look in three directions: Harris corners.");
     is.input("segment", &In::segment, "a cloud with normals");
     is.scale(&In::scale);

@@ -20,7 +20,9 @@ struct KeypointsIss : SegmentStep {
 
   static void describe(Declaration<KeypointsIss>& is) {
     is.name("keypoints.iss").version(1).source("[Zhong2009]; PCL, ISSKeypoint3D");
-    is.summary("Keeps the points where the surface bends most: ISS (intrinsic shape signatures).");
+    is.summary(
+        "Keeps the points where the surface varies most in all three directions: ISS (intrinsic "
+        "shape signatures).");
     is.input("segment", &In::segment, "the cloud to choose from");
     is.scale(&In::scale);
     is.output("keypoints", &Out::keypoints, "those of its points that are keypoints");

@@ -19,13 +19,13 @@ struct ConsistencyOptions {
     is.param("gc_size", &ConsistencyOptions::gc_size)
         .unit("m")
         .range(0.001, 100)
-        .source("PCL, GeometricConsistencyGrouping")
+        .source("PCL, whose default is 1 m")
         .doc(
             "two pairs are consistent if the distances between their points in either segment "
             "differ by no more; also the bound of the motion's inliers");
     is.param("gc_threshold", &ConsistencyOptions::gc_threshold)
         .range(3, 1e6)
-        .source("PCL, GeometricConsistencyGrouping")
+        .source("PCL, whose default is 3")
         .doc("pairs that a consistent set must have; edges with fewer pairs are kept as they are");
   }
 };

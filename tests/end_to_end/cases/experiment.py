@@ -162,6 +162,9 @@ def test_nothing_measured_has_an_exit_code_of_its_own(folder):
     inputs = rooms(folder, 1)
     file = experiment(folder, inputs, "variants:\n  same: {}\n")
     refused(plumb("compare", file, "--primary", "error.fine.atr", "--quiet", code=NOTHING), "nothing was measured", "error.fine.atr", "Did you mean 'error.fine.ate'?")
+    # A step that is not there is told before the first run.
+    for words in (["--primary", "eror.fine.ate"], ["--metric", "eror.fine.*"]):
+        refused(plumb("compare", file, *words, code=NOTHING), "nothing was measured", "wheels.yaml: no number can be called 'eror.fine.", "the step 'error'")
     # A log by itself has no truth: what was to decide is not there.
     refused(plumb("compare", folder / "wheels.yaml", "--variant", "same=voxel_size=0.05m", "--input", inputs[0] / "log.clf", "--primary", "error.fine.ate", "--quiet",
                   code=NOTHING), "nothing was measured")
@@ -280,6 +283,10 @@ def test_an_experiment_is_checked_before_anything_runs(folder):
     said.has(f"{file}:6:15: the pipeline has no parameter 'voxle_size'.", "  odd: {set: {voxle_size: 0.2 m}}", "Did you mean 'voxel_size'?")
     file.write_text(file.read_text().replace("primary: error.fine.ate\n", "").replace("voxle", "voxel"))
     plumb("compare", file, code=WRONG_INPUT).has("'primary' is missing")
+    other = folder / "other.yaml"
+    other.write_text("plumb: 1\npipeline: wheels.yaml\nprimary: error.fine.ate\nvariants: {same: {}}\n")
+    plumb("compare", other, code=WRONG_INPUT).has("expected 'experiment: 1'", f"{other}:1:1: an experiment has no key 'plumb'.")
+    plumb("check", other, code=WRONG_INPUT).has("is an experiment, not a pipeline", "plumb compare")
     plumb("run", file, "-o", folder / "out", code=WRONG_INPUT).has("is an experiment, not a pipeline", "plumb compare")
     file = experiment(folder, inputs, "variants: {same: {}}\ntime: [measure., regster.]\n")
     refused(plumb("compare", file, code=WRONG_INPUT), f"{file}:6:7: 'time' regster.: no step of {folder / 'wheels.yaml'} uses one", "behind 'use'")

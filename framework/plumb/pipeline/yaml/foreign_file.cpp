@@ -57,7 +57,10 @@ bool has_key(std::string_view text, const std::vector<std::string>& keys) {
 }
 
 bool is_experiment(std::string_view text) {
-  return has_key(text, {"experiment"}) && !has_key(text, {});  // the second: blank
+  if (has_key(text, {})) return false;  // blank
+  const auto has = [&](const char* key) { return has_key(text, {key}); };
+  return has("experiment") ||
+         (has("pipeline") && has("primary") && !has("steps") && !has("extends"));
 }
 
 std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
@@ -67,7 +70,7 @@ std::optional<Fault> foreign_file(const fs::path& file, std::string_view text) {
                  "Give the pipeline that was run; or repeat the run itself: plumb run --locked " +
                      file.string() + " -o DIR."};
   const std::string kind = io::kind_of_content(text);
-  if (kind.empty() && is_experiment(text))
+  if ((kind.empty() || kind == "a pipeline") && is_experiment(text))
     return Fault{name + "an experiment, not a pipeline.",
                  "Run it: plumb compare " + file.string() + "."};
   if (kind.empty() || kind == "a pipeline") {

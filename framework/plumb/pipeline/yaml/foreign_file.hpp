@@ -20,7 +20,8 @@ inline constexpr const char* lock_first_line =
 /// may name to have them printed.
 bool has_key(std::string_view text, const std::vector<std::string>& keys);
 
-/// Whether a text is that of an experiment (`plumb compare`), which names pipelines and is none.
+/// Whether a text is that of an experiment (`plumb compare`), which names pipelines and is none;
+/// also one that says 'plumb: 1' where 'experiment: 1' belongs.
 bool is_experiment(std::string_view text);
 
 /// What `file` is and what to give instead, when its text is plainly no pipeline's. Says nothing of

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace plumb::pipeline {
 namespace {
@@ -18,10 +19,22 @@ std::vector<std::string> symbols() {
   return all;
 }
 
-std::string unit_cure(Quantity quantity, const std::string& number) {
+/// `number` has none. Of a ratio what is below 1 was meant as a share, not as so many percent.
+std::string unit_cure(Quantity quantity, const std::string& number, double value) {
   const std::string known = known_units(quantity);
+  if (quantity == Quantity::ratio && std::abs(value) < 1)
+    return "Write the unit: the share " + number + " is '" + written(value, quantity) + "'.";
   return "Write the unit, as in '" + number + " " + known.substr(0, known.find(',')) +
          "'; known: " + known + ".";
+}
+
+/// `number` has one and should not. A share is written as such, not as its percents.
+std::string bare_cure(const Measured& number) {
+  if (number.unit->quantity != Quantity::ratio)
+    return "Leave out the '" + std::string(number.unit->symbol) + "'.";
+  char share[32];  // 12 digits hide what the factor adds: 0.01 * 57
+  std::snprintf(share, sizeof share, "%.12g", number.si);
+  return std::string("Write ") + share + ".";
 }
 
 /// What a number that does not serve should be: who wrote one does not ask for none.
@@ -37,11 +50,10 @@ std::variant<ParameterValue, Fault> read_quantity(const ParameterDescription& pa
   const Measured measured = std::get<Measured>(number);
   if (parameter.quantity == Quantity::none) {
     if (measured.unit)
-      return Fault{"'" + text + "' has a unit, expected a bare number",
-                   "Leave out the '" + std::string(measured.unit->symbol) + "'."};
+      return Fault{"'" + text + "' has a unit, expected a bare number", bare_cure(measured)};
   } else if (!measured.unit) {
     return Fault{"'" + text + "' has no unit, expected " + expected_instead(parameter),
-                 unit_cure(parameter.quantity, text)};
+                 unit_cure(parameter.quantity, text, measured.si)};
   } else if (measured.unit->quantity != parameter.quantity) {
     return Fault{"'" + text + "' is " + with_article(name_of(measured.unit->quantity)) +
                      ", expected " + expected_instead(parameter),

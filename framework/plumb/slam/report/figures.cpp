@@ -18,6 +18,13 @@ bool matches(const std::string& glob, const std::string& name) {
   return fnmatch(glob.c_str(), name.c_str(), 0) == 0;
 }
 
+/// Whether a glob may match a number of a step, as far as what stands before its first wildcard
+/// tells.
+bool may_match(const std::string& glob, const std::string& path) {
+  const std::string first = glob.substr(0, glob.find_first_of("*?[\\")), own = path + ".";
+  return first.starts_with(own) || (first.size() < glob.size() && own.starts_with(first));
+}
+
 const PlannedStep& step_at(const Plan& plan, const std::string& path) {
   return *std::ranges::find_if(plan.steps, [&](const PlannedStep& s) { return s.path == path; });
 }
@@ -117,6 +124,21 @@ std::vector<Figure> figures_of(const Plan& plan, const RunResult& result,
   }
   add_times(figures, plan, result, chosen);
   return figures;
+}
+
+std::string unmatchable(const std::vector<std::string>& globs, const Plan& plan) {
+  std::vector<std::string> paths;
+  for (const PlannedStep& step : plan.steps) paths.push_back(step.path);
+  for (const std::string& glob : globs) {
+    if (std::ranges::any_of(paths, [&](const std::string& path) { return may_match(glob, path); }))
+      continue;
+    std::string near;
+    for (auto dot = glob.find('.'); near.empty() && dot != glob.npos; dot = glob.find('.', dot + 1))
+      near = pipeline::nearest(glob.substr(0, dot), paths);
+    return "no number can be called '" + glob + "': it is no STEP.NUMBER of a step that there is" +
+           (near.empty() ? "" : "; there is, say, the step '" + near + "'");
+  }
+  return "";
 }
 
 std::string unmatched(const std::vector<std::string>& globs, const RunResult& result) {

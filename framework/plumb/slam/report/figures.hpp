@@ -31,4 +31,8 @@ std::vector<experiment::Figure> figures_of(const Plan& plan, const RunResult& re
 /// empty when each matches some.
 std::string unmatched(const std::vector<std::string>& globs, const RunResult& result);
 
+/// The same before any run, as far as it is known then: a sentence about the first glob that no
+/// number of any step of `plan` can match, as none is called as it begins.
+std::string unmatchable(const std::vector<std::string>& globs, const Plan& plan);
+
 }  // namespace plumb

@@ -121,5 +121,17 @@ TEST(Unmatched, NamesANumberThatThereIs) {
   EXPECT_THAT(unmatched({"x"}, RunResult()), HasSubstr("no step gave any"));
 }
 
+TEST(Unmatchable, NamesAStepThatThereIs) {
+  const SmallRun run;
+  const Plan& plan = run.plan;
+  EXPECT_EQ(unmatchable({"error.fine.atr", "fine.matched.*", "map_*", "*.ate", "fi?e.*"}, plan), "")
+      << "which numbers a step gives is known after a run";
+  EXPECT_THAT(unmatchable({"error.*", "eror.fine.ate"}, plan),
+              AllOf(HasSubstr("'eror.fine.ate'"), HasSubstr("there is, say, the step 'error'")));
+  EXPECT_THAT(unmatchable({"fine.mached.rmse"}, plan), HasSubstr("the step 'fine.matched'"));
+  for (const char* odd : {"error", "coarse.*", "errors.*", "ate"})
+    EXPECT_THAT(unmatchable({odd}, plan), HasSubstr(odd)) << odd;
+}
+
 }  // namespace
 }  // namespace plumb
