@@ -116,7 +116,7 @@ Plan cell_plan(const Experiment& experiment, const Variant& variant, const Input
   const Plan open = read_pipeline(file, overlay, registry);
   for (Edits& edits : edits_of(input, variant, open)) overlay.edits.push_back(std::move(edits));
   overlay.sets = sets_of_run(experiment, variant, input, open);
-  for (const std::string& set : disturbances(experiment.replicates, replicate, open))
+  for (const std::string& set : disturbances(experiment.replicates, replicate, input.name, open))
     put(overlay.sets, set);
   overlay.open = false;
   overlay.needs_files = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plumb/data/hash.hpp"
 #include "plumb/data/random.hpp"
 
 namespace plumb::experiment {
@@ -14,9 +15,10 @@ struct Disturbed {
   std::string value;
 };
 
-std::vector<Disturbed> drawn(const Replicates& replicates, std::size_t replicate) {
+std::vector<Disturbed> drawn(const Replicates& replicates, std::size_t replicate,
+                             const std::string& input) {
   constexpr std::uint32_t numbers = 1000000, most_phase = 50;  // [%]
-  Random random(reseeded(replicates.seed, replicate));
+  Random random(reseeded(reseeded(replicates.seed, replicate), hash_of(input).low));
   // All are drawn, whatever is disturbed: so none depends on the others.
   const std::uint32_t skipped = random.below(replicates.skip_frames + 1);
   const std::uint32_t drop_seed = 1 + random.below(numbers);
@@ -44,10 +46,10 @@ bool has(const PlannedStep& step, const Disturbed& disturbed) {
 }  // namespace
 
 std::vector<std::string> disturbances(const Replicates& replicates, std::size_t replicate,
-                                      const Plan& plan) {
+                                      const std::string& input, const Plan& plan) {
   std::vector<std::string> sets;
   if (replicate == 0) return sets;
-  for (const Disturbed& disturbed : drawn(replicates, replicate))
+  for (const Disturbed& disturbed : drawn(replicates, replicate, input))
     for (const PlannedStep& step : plan.steps)
       if (has(step, disturbed))
         sets.push_back(step.path + "." + disturbed.parameter + "=" + disturbed.value);
@@ -56,7 +58,7 @@ std::vector<std::string> disturbances(const Replicates& replicates, std::size_t 
 
 std::vector<std::string> not_disturbed(const Replicates& replicates, const Plan& plan) {
   std::vector<std::string> names;
-  for (const Disturbed& disturbed : drawn(replicates, 1))
+  for (const Disturbed& disturbed : drawn(replicates, 1, ""))
     if (std::ranges::none_of(plan.steps,
                              [&](const PlannedStep& step) { return has(step, disturbed); }))
       names.push_back(disturbed.parameter);

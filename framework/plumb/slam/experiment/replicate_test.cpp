@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <set>
 
 namespace plumb::experiment {
@@ -40,11 +41,12 @@ struct Disturbed : testing::Test {
       plan.steps.push_back(step);
     }
   }
-  std::vector<std::string> sets(std::size_t replicate, std::uint64_t seed = 0) const {
+  std::vector<std::string> sets(std::size_t replicate, std::uint64_t seed = 0,
+                                const std::string& input = "street") const {
     Replicates all;
     all.disturb_all();
     all.seed = seed;
-    return disturbances(all, replicate, plan);
+    return disturbances(all, replicate, input, plan);
   }
 };
 
@@ -68,14 +70,22 @@ TEST_F(Disturbed, ReplicatesAreAlikeForTheSameSeedAndUnlikeEachOther) {
   EXPECT_GT(seeds.size(), 97u);
 }
 
+TEST_F(Disturbed, EachInputIsInAWayOfItsOwn) {
+  std::map<std::string, int> skipped;  // of the same replicate, over inputs
+  for (int k = 0; k < 60; ++k) ++skipped[sets(1, 0, "street_" + std::to_string(k)).front()];
+  EXPECT_THAT(skipped, testing::SizeIs(6)) << "0 to 5 frames";
+  for (const auto& [set, count] : skipped) EXPECT_LT(count, 25) << set;
+}
+
 TEST_F(Disturbed, OneThingAloneIsAsItIsWithTheOthers) {
   Replicates one;
   one.phase = true;
   Replicates all;
   all.disturb_all();
-  EXPECT_THAT(disturbances(one, 3, plan).size(), 1u);
+  EXPECT_THAT(disturbances(one, 3, "street", plan).size(), 1u);
   all.skip_frames = 0, all.drop_frames = 0;
-  EXPECT_EQ(disturbances(one, 3, plan).front(), disturbances(all, 3, plan).front());
+  EXPECT_EQ(disturbances(one, 3, "street", plan).front(),
+            disturbances(all, 3, "street", plan).front());
 }
 
 TEST_F(Disturbed, WhatNoStepHasIsNamed) {
