@@ -46,25 +46,6 @@ double share_within(const std::vector<float>& a, const std::vector<float>& b, fl
   return static_cast<double>(close) / static_cast<double>(a.size());
 }
 
-/// Mutual nearest neighbours by comparing all pairs.
-std::vector<std::pair<std::size_t, std::size_t>> mutual(const std::vector<float>& a,
-                                                        const std::vector<float>& b) {
-  const std::size_t n = a.size() / 33, m = b.size() / 33;
-  std::vector<std::size_t> of_a(n), of_b(m);
-  std::vector<double> best_a(n, 1e300), best_b(m, 1e300);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < m; ++j) {
-      double d = 0;
-      for (std::size_t c = 0; c < 33; ++c) d += std::pow(double{a[i * 33 + c]} - b[j * 33 + c], 2);
-      if (d < best_a[i]) best_a[i] = d, of_a[i] = j;
-      if (d < best_b[j]) best_b[j] = d, of_b[j] = i;
-    }
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < n; ++i)
-    if (of_b[of_a[i]] == i) pairs.emplace_back(i, of_a[i]);
-  return pairs;
-}
-
 TEST(Support, OffersEveryPointWithinTheRadius) {
   const Cloud cloud = street_corner(2000, 1);
   const float radius = 1.3f;
@@ -284,6 +265,25 @@ TEST(Fpfh, OfAnEmptyCloudIsEmpty) {
 }
 
 #ifdef PLUMB_HAS_PCL
+/// Mutual nearest neighbours by comparing all pairs.
+std::vector<std::pair<std::size_t, std::size_t>> mutual(const std::vector<float>& a,
+                                                        const std::vector<float>& b) {
+  const std::size_t n = a.size() / 33, m = b.size() / 33;
+  std::vector<std::size_t> of_a(n), of_b(m);
+  std::vector<double> best_a(n, 1e300), best_b(m, 1e300);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < m; ++j) {
+      double d = 0;
+      for (std::size_t c = 0; c < 33; ++c) d += std::pow(double{a[i * 33 + c]} - b[j * 33 + c], 2);
+      if (d < best_a[i]) best_a[i] = d, of_a[i] = j;
+      if (d < best_b[j]) best_b[j] = d, of_b[j] = i;
+    }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < n; ++i)
+    if (of_b[of_a[i]] == i) pairs.emplace_back(i, of_a[i]);
+  return pairs;
+}
+
 std::vector<float> fpfh_of_pcl(const Cloud& cloud, const std::vector<std::uint32_t>& keys,
                                double radius) {
   return twins::PclCloud(cloud.x, cloud.y, cloud.z, cloud.nx, cloud.ny, cloud.nz)
