@@ -56,6 +56,9 @@ def test_tang2024_has_nothing_of_ours_left(folder):
     loops = steps["drift.loops"]["with"]
     assert (loops["similarity"], loops["stride"], loops["max_walks"], loops["candidates"]) == ("equation_1", "2", "1", "3"), loops
     assert loops["either_direction"] == "false" and loops["min_path_separation"] == "0 m", loops
+    # What the paper leaves open is as in tang2024.yaml: from which difference on bins agree, how near a loop is, where its walk ends.
+    silent = ("epsilon", "max_centroid_distance", "drift", "threshold", "relative_threshold")
+    assert [loops[name] for name in silent] == [dict(steps_of(resolved(CASCADE)))["drift.loops"]["with"][name] for name in silent], loops
     assert steps["fpfh"]["with"]["keypoint_voxel_size"] == "none" and steps["merged"]["with"]["voxel_size"] == "0 m"
     assert all(steps[name]["with"]["distance"] != "none" and "features" in steps[name]["from"] for name in ("drift.inner", "coarse.inner"))
     coarse = [float(text.split()[0]) for text in tree["steps"]["coarse"]["repeat"]["passes"]["max_correspondence_distance"]]
